@@ -1,0 +1,79 @@
+#include "formats/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "libguide/base/error.h"
+
+namespace waylight {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folder_of(const std::string& path) {
+  const fs::path parent = fs::path(path).parent_path();
+  return parent.empty() ? fs::path(".") : parent;
+}
+
+bool is_special(const std::string& path) {
+  std::error_code error;
+  return fs::exists(path, error) && !fs::is_regular_file(path, error);
+}
+
+// After a crash of the machine the name must not stand for a file whose blocks were never written.
+void flush_to_disk(const std::string& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY);
+  if (descriptor < 0) fail("\"{}\": was not written", path);
+  const int result = ::fsync(descriptor);
+  const int error = errno;
+  ::close(descriptor);
+  if (result != 0) fail("\"{}\": cannot write: {}", path, std::strerror(error));
+}
+
+}  // namespace
+
+void check_writable(const std::string& path) {
+  const fs::path folder = folder_of(path);
+  if (!fs::is_directory(folder))
+    fail("\"{}\": the folder \"{}\" does not exist", path, folder.string());
+  if (fs::is_directory(path)) fail("\"{}\": is a folder, not a file", path);
+  const std::string target = is_special(path) ? path : folder.string();
+  if (::access(target.c_str(), W_OK) != 0)
+    fail("\"{}\": cannot write to \"{}\" (permissions)", path, target);
+}
+
+void write_atomically(const std::string& path,
+                      const std::function<void(const std::string&)>& write) {
+  check_writable(path);
+  if (is_special(path)) return write(path);
+  const std::string temporary = fmt::format("{}.tmp{}", path, ::getpid());
+  try {
+    write(temporary);
+    flush_to_disk(temporary);
+  } catch (...) {
+    std::remove(temporary.c_str());
+    throw;
+  }
+  if (std::rename(temporary.c_str(), path.c_str()) != 0) {
+    const int error = errno;
+    std::remove(temporary.c_str());
+    fail("\"{}\": cannot write: {}", path, std::strerror(error));
+  }
+}
+
+void write_text_atomically(const std::string& path, const std::string& text) {
+  write_atomically(path, [&](const std::string& temporary) {
+    std::ofstream out(temporary, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) fail("\"{}\": cannot write (disk full?)", path);
+  });
+}
+
+}  // namespace waylight

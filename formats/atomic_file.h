@@ -1,0 +1,21 @@
+#pragma once
+// Outputs appear complete or not at all.
+
+#include <functional>
+#include <string>
+
+namespace waylight {
+
+// Calls write(temporary path), then flushes it to disk and renames it to `path`. Removes the
+// temporary file and rethrows when write throws. Throws Error naming the path when the folder is
+// missing or not writable. Something that is not a regular file, such as /dev/null, is written to
+// in place.
+void write_atomically(const std::string& path,
+                      const std::function<void(const std::string& temporary)>& write);
+
+void write_text_atomically(const std::string& path, const std::string& text);
+
+// Throws Error when write_atomically would fail for want of a folder or of permission.
+void check_writable(const std::string& path);
+
+}  // namespace waylight

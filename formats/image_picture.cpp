@@ -1,0 +1,128 @@
+// Pictures by stb_image, and PNG writing.
+
+#include <array>
+
+#include "formats/atomic_file.h"
+#include "formats/file_bytes.h"
+#include "formats/image_codecs.h"
+#include "formats/srgb.h"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_NO_STDIO
+#define STBI_FAILURE_USERMSG
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#define STBI_WRITE_NO_STDIO
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb_image.h>
+#include <stb_image_write.h>
+#pragma GCC diagnostic pop
+
+namespace waylight {
+namespace {
+
+template <typename T>
+using Pixels = std::unique_ptr<T, decltype(&stbi_image_free)>;
+
+struct Source {
+  const std::string& path;
+  const stbi_uc* data;
+  int size;
+  int width = 0, height = 0, channels = 0;
+
+  int wanted() const { return channels == 2 || channels == 4 ? 4 : 3; }
+};
+
+// Interleaved numbers of the picture with `wanted` channels, decoded by `colour` and `alpha`.
+template <typename T, typename ColourDecoder>
+Image decode(const Source& source, T* (*load)(const stbi_uc*, int, int*, int*, int*, int),
+             const ColourDecoder& colour, float alpha_scale) {
+  int width = 0, height = 0, channels = 0;
+  const int wanted = source.wanted();
+  const Pixels<T> pixels(load(source.data, source.size, &width, &height, &channels, wanted),
+                         stbi_image_free);
+  if (!pixels) fail("\"{}\": cannot be decoded: {}", source.path, stbi_failure_reason());
+  Image image(width, height, {"R", "G", "B"});
+  if (wanted == 4) image = Image(width, height, {"R", "G", "B", "A"});
+  for (size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = i % wanted == 3 ? static_cast<float>(pixels.get()[i]) * alpha_scale
+                                      : colour(pixels.get()[i]);
+  return image;
+}
+
+template <typename T>
+std::vector<float> decoding_table(bool srgb) {
+  constexpr int kMax = std::numeric_limits<T>::max();
+  std::vector<float> table(kMax + 1);
+  for (int i = 0; i <= kMax; ++i) {
+    const float value = static_cast<float>(i) / kMax;
+    table[i] = srgb ? srgb_to_linear(value) : value;
+  }
+  return table;
+}
+
+template <typename T>
+Image decode_integers(const Source& source, T* (*load)(const stbi_uc*, int, int*, int*, int*, int),
+                      bool srgb) {
+  const std::vector<float> table = decoding_table<T>(srgb);
+  return decode<T>(
+      source, load, [&](T v) { return table[v]; }, 1.0f / std::numeric_limits<T>::max());
+}
+
+Color display_color(const Image& image, const std::array<int, 3>& channels, int x, int y) {
+  return {image.at(x, y, channels[0]), image.at(x, y, channels[1]), image.at(x, y, channels[2])};
+}
+
+uint8_t quantise(float linear) {
+  if (!(linear > 0)) return 0;  // NaN too
+  return static_cast<uint8_t>(linear_to_srgb(std::min(linear, 1.0f)) * 255 + 0.5f);
+}
+
+void append_bytes(void* context, void* data, int size) {
+  static_cast<std::string*>(context)->append(static_cast<const char*>(data), size);
+}
+
+}  // namespace
+
+Image read_picture(const std::string& path, ColorSpace space) {
+  const std::string bytes = read_whole_file(path);
+  if (bytes.size() > std::numeric_limits<int>::max()) fail("\"{}\": is larger than 2 GiB", path);
+  Source source{path, reinterpret_cast<const stbi_uc*>(bytes.data()),
+                static_cast<int>(bytes.size())};
+  if (!stbi_info_from_memory(source.data, source.size, &source.width, &source.height,
+                             &source.channels))
+    fail("\"{}\": is not a picture that can be read (PNG, JPEG, TGA, HDR, EXR): {}", path,
+         stbi_failure_reason());
+  check_image_size(path, source.width, source.height, source.wanted());
+  const bool integers_srgb = space != ColorSpace::linear;
+  if (stbi_is_hdr_from_memory(source.data, source.size))
+    return decode<float>(
+        source, stbi_loadf_from_memory,
+        [&](float v) { return space == ColorSpace::srgb ? srgb_to_linear(v) : v; }, 1);
+  if (stbi_is_16_bit_from_memory(source.data, source.size))
+    return decode_integers<stbi_us>(source, stbi_load_16_from_memory, integers_srgb);
+  return decode_integers<stbi_uc>(source, stbi_load_from_memory, integers_srgb);
+}
+
+void write_png(const std::string& path, const Image& image, float exposure) {
+  std::array<int, 3> channels{image.find("R"), image.find("G"), image.find("B")};
+  if (image.find("Y") >= 0 && channels[0] < 0) channels.fill(image.find("Y"));
+  if (*std::min_element(channels.begin(), channels.end()) < 0)
+    fail("\"{}\": the picture has no channels R, G, B to write", path);
+  const float scale = std::exp2(exposure);
+  std::vector<uint8_t> bytes;
+  bytes.reserve(static_cast<size_t>(image.width) * image.height * 3);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (float value : display_color(image, channels, x, y))
+        bytes.push_back(quantise(value * scale));
+  std::string png;
+  if (!stbi_write_png_to_func(append_bytes, &png, image.width, image.height, 3, bytes.data(),
+                              image.width * 3))
+    fail("\"{}\": cannot be encoded as PNG", path);
+  write_whole_file(path, png);
+}
+
+}  // namespace waylight

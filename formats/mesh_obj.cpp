@@ -1,0 +1,114 @@
+#include <tiny_obj_loader.h>
+
+#include <sstream>
+
+#include "formats/file_bytes.h"
+#include "formats/mesh_repair.h"
+
+namespace waylight {
+namespace {
+
+// Collects the statements of an OBJ file into one mesh.
+class ObjBuilder {
+ public:
+  explicit ObjBuilder(std::string path) : path_(std::move(path)) {}
+
+  void add_position(const Vec3& p) { positions_.push_back(p); }
+  void add_normal(const Vec3& n) { normals_.push_back(n); }
+  void add_uv(const Vec2& uv) { uvs_.push_back(uv); }
+
+  void add_face(const tinyobj::index_t* corners, int count) {
+    ++faces_;
+    if (count < 3)
+      fail("\"{}\": face {} has {} corners, at least 3 are needed", path_, faces_, count);
+    polygon_.clear();
+    for (int i = 0; i < count; ++i) polygon_.push_back(vertex(corners[i]));
+    triangulate_polygon(polygon_, mesh_.positions, path_, mesh_.triangles);
+  }
+
+  TriangleMesh finish(MeshRepairs* repairs) {
+    if (!has_normals_) mesh_.normals.clear();
+    if (!has_uvs_) mesh_.uvs.clear();
+    finish_mesh(mesh_, path_, repairs);
+    return std::move(mesh_);
+  }
+
+ private:
+  static constexpr uint32_t kAbsent = ~0u;
+
+  // A vertex made from a position; those of the same position form a list.
+  struct Variant {
+    uint32_t uv, normal, next;
+  };
+
+  // 1-based, or negative: counted back from the latest; 0 stands for absent.
+  uint32_t resolve(int index, size_t count, const char* what) const {
+    const int64_t resolved = index > 0 ? int64_t{index} - 1 : static_cast<int64_t>(count) + index;
+    if (index == 0 || resolved < 0 || resolved >= static_cast<int64_t>(count))
+      fail("\"{}\": face {} uses {} {}, but {} are defined before it", path_, faces_, what, index,
+           count);
+    return static_cast<uint32_t>(resolved);
+  }
+
+  uint32_t vertex(const tinyobj::index_t& corner) {
+    const uint32_t p = resolve(corner.vertex_index, positions_.size(), "position");
+    const uint32_t uv = corner.texcoord_index
+                            ? resolve(corner.texcoord_index, uvs_.size(), "texture coordinate")
+                            : kAbsent;
+    const uint32_t n =
+        corner.normal_index ? resolve(corner.normal_index, normals_.size(), "normal") : kAbsent;
+    if (first_variant_.size() < positions_.size())
+      first_variant_.resize(positions_.size(), kAbsent);
+    for (uint32_t i = first_variant_[p]; i != kAbsent; i = variants_[i].next)
+      if (variants_[i].uv == uv && variants_[i].normal == n) return i;
+    return add_variant(p, uv, n);
+  }
+
+  uint32_t add_variant(uint32_t p, uint32_t uv, uint32_t n) {
+    const uint32_t index = static_cast<uint32_t>(variants_.size());
+    variants_.push_back({uv, n, first_variant_[p]});
+    first_variant_[p] = index;
+    mesh_.positions.push_back(positions_[p]);
+    mesh_.uvs.push_back(uv == kAbsent ? Vec2(0, 0) : uvs_[uv]);
+    mesh_.normals.push_back(n == kAbsent ? Vec3(0, 0, 0) : normals_[n]);
+    has_uvs_ |= uv != kAbsent;
+    has_normals_ |= n != kAbsent;
+    return index;
+  }
+
+  std::string path_;
+  std::vector<Vec3> positions_, normals_;
+  std::vector<Vec2> uvs_;
+  std::vector<uint32_t> first_variant_;  // of each position
+  std::vector<Variant> variants_;        // of each vertex of the mesh
+  std::vector<uint32_t> polygon_;
+  TriangleMesh mesh_;
+  size_t faces_ = 0;
+  bool has_normals_ = false, has_uvs_ = false;
+};
+
+ObjBuilder& builder(void* user_data) { return *static_cast<ObjBuilder*>(user_data); }
+
+}  // namespace
+
+TriangleMesh read_obj(const std::string& path, MeshRepairs* repairs) {
+  std::istringstream text(read_whole_file(path));
+  tinyobj::callback_t callbacks;
+  callbacks.vertex_cb = [](void* data, float x, float y, float z, float) {
+    builder(data).add_position({x, y, z});
+  };
+  callbacks.normal_cb = [](void* data, float x, float y, float z) {
+    builder(data).add_normal({x, y, z});
+  };
+  callbacks.texcoord_cb = [](void* data, float u, float v, float) { builder(data).add_uv({u, v}); };
+  callbacks.index_cb = [](void* data, tinyobj::index_t* corners, int count) {
+    builder(data).add_face(corners, count);
+  };
+  ObjBuilder mesh(path);
+  std::string warning, error;
+  if (!tinyobj::LoadObjWithCallback(text, callbacks, &mesh, nullptr, &warning, &error))
+    fail("\"{}\": {}", path, error);
+  return mesh.finish(repairs);
+}
+
+}  // namespace waylight

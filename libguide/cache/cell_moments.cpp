@@ -1,0 +1,59 @@
+#include "libguide/cache/cell_moments.h"
+
+#include <cmath>
+
+namespace waylight {
+namespace {
+
+// Integers up to it are exact in float; beyond, the moments become a window over the last photons.
+constexpr float kMaxCount = 0x1p24f;
+
+void forget_half(CellTraining& cell) {
+  cell.count *= 0.5f;
+  cell.position_m2 *= 0.5f;
+  cell.position_cross *= 0.5f;
+  cell.normal_m2 *= 0.5f;
+}
+
+Vec3 products(const Vec3& v) { return {v.x() * v.y(), v.x() * v.z(), v.y() * v.z()}; }
+
+}  // namespace
+
+// M2 = M2_a + M2_b + delta^2 n_a n_b / n with delta the difference of the means; likewise products.
+void MomentBatch::merge_into(CellTraining& cell) const {
+  if (count_ == 0) return;
+  const float n = cell.count + count_, mix = cell.count / n;
+  const Vec3 dp = position_ / count_, dn = normal_ / count_;
+  const float between = count_ * mix - count_;  // batch sums are about the shift, not their mean
+  cell.position_m2 += position2_ + between * dp.cwiseProduct(dp);
+  cell.position_cross += cross_ + between * products(dp);
+  cell.normal_m2 += normal2_ + between * dn.cwiseProduct(dn);
+  cell.position_m2 = cell.position_m2.cwiseMax(0);
+  cell.normal_m2 = cell.normal_m2.cwiseMax(0);
+  cell.position_mean = position_shift_ + dp * (count_ / n);
+  cell.normal_mean = normal_shift_ + dn * (count_ / n);
+  cell.count = n;
+  cell.flux += flux_;
+  if (cell.count > kMaxCount) forget_half(cell);
+}
+
+// The determinant of the covariance C projected on the plane of n is n^T adj(C) n.
+double photon_area(const CellTraining& cell) {
+  if (cell.count < 2) return 0;
+  const Eigen::Vector3d v = cell.position_m2.cast<double>() / (cell.count - 1.0);
+  const Eigen::Vector3d c = cell.position_cross.cast<double>() / (cell.count - 1.0);
+  const Eigen::Vector3d n = mean_normal(cell, Vec3::UnitZ()).cast<double>();
+  const double xx = v.y() * v.z() - c.z() * c.z(), yy = v.x() * v.z() - c.y() * c.y();
+  const double zz = v.x() * v.y() - c.x() * c.x(), xy = c.y() * c.z() - c.x() * v.z();
+  const double xz = c.x() * c.z() - c.y() * v.y(), yz = c.x() * c.y() - c.z() * v.x();
+  const double det = n.x() * n.x() * xx + n.y() * n.y() * yy + n.z() * n.z() * zz +
+                     2 * (n.x() * n.y() * xy + n.x() * n.z() * xz + n.y() * n.z() * yz);
+  return 12 * std::sqrt(std::max(det, 0.0));
+}
+
+Vec3 mean_normal(const CellTraining& cell, const Vec3& fallback) {
+  const float length = cell.normal_mean.norm();
+  return length > 1e-3f ? Vec3(cell.normal_mean / length) : fallback;
+}
+
+}  // namespace waylight

@@ -1,0 +1,48 @@
+#pragma once
+// Running first and second moments of the photons of a cell, kept in its CellTraining.
+
+#include "libguide/records/guide_cache.h"
+#include "libguide/records/photon.h"
+
+namespace waylight {
+
+// Sums over one batch, taken about the running means so that a cell far from the origin loses no
+// digits, then merged by the pairwise update of Chan, Golub and LeVeque [1983].
+class MomentBatch {
+ public:
+  MomentBatch(const CellTraining& cell, const Photon& first)
+      : position_shift_(cell.count > 0 ? cell.position_mean : first.position),
+        normal_shift_(cell.count > 0 ? cell.normal_mean : first.normal) {}
+
+  void add(const Photon& photon, float weight) {
+    const Vec3 p = photon.position - position_shift_;
+    const Vec3 n = photon.normal - normal_shift_;
+    position_ += p;
+    position2_ += p.cwiseProduct(p);
+    cross_ += Vec3(p.x() * p.y(), p.x() * p.z(), p.y() * p.z());
+    normal_ += n;
+    normal2_ += n.cwiseProduct(n);
+    flux_ += weight;
+    count_ += 1;
+  }
+  void merge_into(CellTraining& cell) const;
+
+ private:
+  Vec3 position_shift_, normal_shift_;
+  Vec3 position_ = Vec3::Zero(), position2_ = Vec3::Zero(), cross_ = Vec3::Zero();
+  Vec3 normal_ = Vec3::Zero(), normal2_ = Vec3::Zero();
+  double flux_ = 0;
+  float count_ = 0;
+};
+
+// Surface area that the photons of a cell cover: that of the rectangle whose uniform density has
+// their covariance in the plane of the mean normal, 12 sqrt(det) [a side of length l has variance
+// l^2 / 12]. Exact for rectangles in any orientation that are lit evenly. A disk comes out 5 % low,
+// a triangle 15 % high, an L of three squares 14 % high, light that falls to half from one side to
+// the other 2 % low. Layers behind each other count once.
+double photon_area(const CellTraining& cell);
+
+// The unit mean normal of the photons, or `fallback` where they cancel out.
+Vec3 mean_normal(const CellTraining& cell, const Vec3& fallback);
+
+}  // namespace waylight

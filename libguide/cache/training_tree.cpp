@@ -1,0 +1,97 @@
+#include "libguide/cache/training_tree.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libguide/base/parallel.h"
+
+namespace waylight {
+
+static_assert(kMaxTreeDepth < 256);
+
+TrainingTree::TrainingTree() : nodes_{{0, 0, kLeafAxis}}, cells_(1), node_of_cell_{0}, depth_{0} {}
+
+TrainingTree::TrainingTree(const GuideCache& previous)
+    : nodes_(previous.nodes), node_of_cell_(previous.cells.size()), depth_(previous.cells.size()) {
+  for (size_t i = 0; i < previous.cells.size(); ++i) {
+    const CacheCell& cell = previous.cells[i];
+    cells_.emplace_back(
+        cell, previous.training[i],
+        std::span(previous.components).subspan(cell.first_component, cell.component_count),
+        std::span(previous.statistics).subspan(cell.first_component, cell.component_count));
+  }
+  std::vector<uint8_t> depth(nodes_.size());
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    const CacheNode& node = nodes_[i];
+    if (node.axis == kLeafAxis) {
+      node_of_cell_[node.child] = i;
+      depth_[node.child] = depth[i];
+    } else {
+      depth[node.child] = depth[node.child + 1] = static_cast<uint8_t>(depth[i] + 1);
+    }
+  }
+}
+
+void TrainingTree::split_full_cells(const TreeOptions& tree, const CellTrainingOptions& options,
+                                    double now) {
+  const uint32_t count = static_cast<uint32_t>(cells_.size());
+  for (uint32_t i = 0; i < count && cells_.size() < tree.max_cells; ++i) {
+    const CellTraining& training = cells_[i].training();
+    if (training.count <= static_cast<float>(tree.photons_per_cell)) continue;
+    if (depth_[i] >= kMaxTreeDepth) continue;
+    const auto where = choose_split(training, tree.normal_spread, tree.min_extent);
+    if (where) split(i, *where, tree, options, now);
+  }
+}
+
+void TrainingTree::split(uint32_t cell, const CellSplit& split, const TreeOptions& tree,
+                         const CellTrainingOptions& options, double now) {
+  const uint32_t child = static_cast<uint32_t>(nodes_.size());
+  const uint32_t new_cell = static_cast<uint32_t>(cells_.size());
+  nodes_[node_of_cell_[cell]] = {split.value, child, split.axis};
+  nodes_.push_back({0, cell, kLeafAxis});
+  nodes_.push_back({0, new_cell, kLeafAxis});
+  cells_[cell] = cells_[cell].child(split, now, sqr(tree.min_extent), options);
+  cells_.push_back(cells_[cell]);
+  node_of_cell_[cell] = child;
+  node_of_cell_.push_back(child + 1);
+  depth_[cell] += 1;
+  depth_.push_back(depth_[cell]);
+}
+
+void TrainingTree::store(GuideCache& cache, const TreeOptions& tree,
+                         double irradiance_scale) const {
+  cache.nodes = nodes_;
+  cache.cells.clear();
+  cache.training.clear();
+  cache.components.clear();
+  cache.statistics.clear();
+  const double now = static_cast<double>(cache.photons);
+  for (const TrainingCell& trained : cells_) {
+    CacheCell cell = trained.cell();
+    cell.irradiance =
+        static_cast<float>(trained.irradiance(now, sqr(tree.min_extent)) * irradiance_scale);
+    cell.first_component = static_cast<uint32_t>(cache.components.size());
+    cache.cells.push_back(cell);
+    cache.training.push_back(trained.training());
+    cache.components.insert(cache.components.end(), trained.components().begin(),
+                            trained.components().end());
+    cache.statistics.insert(cache.statistics.end(), trained.statistics().begin(),
+                            trained.statistics().end());
+  }
+  parallel_for(cache.cells.size(), [&](size_t i) {
+    CacheCell& cell = cache.cells[i];
+    const GaussianMixture mixture(
+        std::span(cache.components).subspan(cell.first_component, cell.component_count));
+    cell.guided_mass = cell.component_count > 0 ? mass_inside(mixture) : 0.0f;
+  });
+}
+
+size_t TrainingTree::bytes() const {
+  return nodes_.capacity() * sizeof(CacheNode) +
+         cells_.size() * (sizeof(TrainingCell) + sizeof(uint32_t) + sizeof(uint8_t));
+}
+
+}  // namespace waylight

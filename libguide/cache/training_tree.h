@@ -1,0 +1,49 @@
+#pragma once
+// The cells of a cache in training and the tree over them.
+
+#include <deque>
+#include <vector>
+
+#include "libguide/cache/training_cell.h"
+
+namespace waylight {
+
+// When cells are split, and how the scene's size enters.
+struct TreeOptions {
+  size_t photons_per_cell = 4000, max_cells = 200'000;
+  float normal_spread = 0.9f;
+  float min_extent = 0;  // standard deviation below which positions are one place
+};
+
+class TrainingTree {
+ public:
+  TrainingTree();  // one cell
+  // previous: has training statistics and passed check() and check_training().
+  explicit TrainingTree(const GuideCache& previous);
+
+  uint32_t find(const Photon& photon) const {
+    return find_leaf(nodes_, photon.position, photon.normal);
+  }
+  size_t size() const { return cells_.size(); }
+  TrainingCell& operator[](size_t i) { return cells_[i]; }
+
+  // Splits the cells that saw more than their photons, in index order: the result does not depend
+  // on threads. now: photons of the whole training so far.
+  void split_full_cells(const TreeOptions& tree, const CellTrainingOptions& options, double now);
+
+  // irradiance_scale: photons per emitted particle, 1/J to W of TrainingCell::irradiance.
+  void store(GuideCache& cache, const TreeOptions& tree, double irradiance_scale) const;
+
+  size_t bytes() const;
+
+ private:
+  void split(uint32_t cell, const CellSplit& split, const TreeOptions& tree,
+             const CellTrainingOptions& options, double now);
+
+  std::vector<CacheNode> nodes_;
+  std::deque<TrainingCell> cells_;  // never moved: growing a vector would need twice the memory
+  std::vector<uint32_t> node_of_cell_;
+  std::vector<uint8_t> depth_;  // of the cell's leaf
+};
+
+}  // namespace waylight

@@ -1,0 +1,26 @@
+#pragma once
+// Stage: fewer components per mixture by Runnalls' greedy merging.
+
+#include "libguide/records/brdf_cache.h"
+#include "libguide/records/guide_cache.h"
+
+namespace waylight {
+
+struct CacheReduceOptions {
+  float max_cost = 10;     // percent of the cost of collapsing to one component, 0..100
+  int max_components = 8;  // 1..8; merging goes on past max_cost until so few are left
+
+  void validate() const;
+};
+
+struct CacheReduceSummary {
+  size_t mixtures = 0;
+  double components_before = 0, components_after = 0;  // means per mixture
+  double mean_cost = 0;                                // percent
+};
+
+BrdfCache reduce(BrdfCache cache, const CacheReduceOptions& options, CacheReduceSummary* summary);
+// Training statistics are dropped: a reduced cache cannot be trained further.
+GuideCache reduce(GuideCache cache, const CacheReduceOptions& options, CacheReduceSummary* summary);
+
+}  // namespace waylight

@@ -1,0 +1,53 @@
+#pragma once
+// Stage: trains an illumination cache from a stream of photons, in memory bounded by its cells.
+
+#include <memory>
+#include <span>
+
+#include "libguide/base/run_control.h"
+#include "libguide/directional/expectation_maximization.h"
+#include "libguide/records/guide_cache.h"
+#include "libguide/records/photon.h"
+
+namespace waylight {
+
+enum class DirectLight { keep, drop };  // photons straight from an emitter: NEE samples those well
+
+struct CacheTrainOptions {
+  int components = 8;           // K, 1..8
+  int photons_per_cell = 4000;  // a cell that saw more is split, 64..10^7
+  int max_cells = 200'000;      // 1..10^7
+  float normal_spread = 0.9f;   // cells whose mean normal is shorter are split by orientation
+  DirectLight direct = DirectLight::keep;
+  MixturePrior prior;
+
+  void validate() const;
+};
+
+struct CacheTrainSummary {
+  uint64_t photons = 0, rejected = 0, dropped_direct = 0;
+  size_t cells = 0, cells_with_mixture = 0, cells_made = 0;
+  uint64_t weights_capped = 0;  // photons that weighed too much against their cell's mean
+  double mean_components = 0, mean_effective_samples = 0, lost_mass = 0;
+  size_t bytes = 0;  // memory of all cells at the end; it never depends on the number of photons
+  double seconds = 0;
+};
+
+// consume() any number of batches, then finish(). The result depends on the order of the photons
+// but not on how they are cut into calls, nor on the number of threads.
+class CacheTrainer {
+ public:
+  // previous: a cache with training statistics to go on from, or an empty one.
+  CacheTrainer(const CacheTrainOptions& options, const PhotonStreamInfo& stream,
+               GuideCache previous = {});
+  ~CacheTrainer();
+
+  void consume(std::span<const Photon> photons);
+  GuideCache finish(CacheTrainSummary* summary);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace waylight

@@ -1,0 +1,105 @@
+#pragma once
+// Weighted and stepwise maximum-a-posteriori EM for Gaussian mixtures [Vorba et al. 2014].
+
+#include <span>
+#include <vector>
+
+#include "libguide/directional/gaussian_mixture.h"
+#include "libguide/records/guide_cache.h"
+
+namespace waylight {
+
+// Conjugate priors: Dirichlet(v) on weights, inverse Wishart(a, b I) on covariances. The mode that
+// is taken is that of [Gauvain, Lee 1994] in d = 2 dimensions, without a prior on the means:
+//   weight = (n s0 + v - 1) / (n + K (v - 1)),  mean = s1 / s0,
+//   covariance = (b I + n s2) / (a - 2 + n s0),  s2 about the mean.
+// A component that one sample supports has variance b / 1.01, one that nothing supports b / 0.01.
+struct MixturePrior {
+  float v = 1.01f, a = 2.01f, b = 5e-4f;  // v >= 1, a > 2, b > 0
+};
+
+struct WeightedPoint {
+  Vec2 y;
+  float weight;  // non-negative, finite; others are rejected and counted
+};
+
+// In training only: no sample weighs more than this many times the mean weight of its batch (after
+// capping), nor more than all others of the batch together. Energy that is carried by more than one
+// sample in 32 is left alone; a firefly is bounded.
+inline constexpr float kMaxTrainingWeight = 32;
+
+struct EmOptions {
+  int components = 8;  // 1..8
+  int max_iterations = 32;
+  float tolerance = 1e-4f;  // relative change of the log-likelihood at which it stops
+  float max_weight = kMaxTrainingWeight;
+  MixturePrior prior;
+};
+
+struct EmResult {
+  std::vector<GaussianComponent> components;  // those with support only; empty when no valid point
+  double log_likelihood = 0;                  // mean over the points by weight, natural logarithm
+  int iterations = 0;
+  int rejected = 0;  // points with a negative, infinite or NaN weight or place off the domain
+};
+
+// Batch EM from the given start (or from initial_components of the points when `start` is empty).
+EmResult fit_mixture(std::span<const WeightedPoint> points, const EmOptions& options,
+                     std::span<const GaussianComponent> start = {});
+
+// A start for EM: at most `count` distinct points by k-means++ with quasi-random numbers, three
+// rounds of Lloyd's algorithm, and the covariances of the clusters under the prior. Deterministic.
+std::vector<GaussianComponent> initial_components(std::span<const WeightedPoint> points, int count,
+                                                  const MixturePrior& prior);
+
+// The same with the first centres given: one round of hard assignment.
+std::vector<GaussianComponent> components_around(std::span<const WeightedPoint> points,
+                                                 std::span<const Vec2> centres,
+                                                 const MixturePrior& prior);
+
+// Stepwise EM without allocation: one E-step over the batch, then the M-step. `components` and
+// `statistics` have the same length of at most 8 (statistics all zero before the first update);
+// those that keep support, n s0 >= 1e-3, are moved to the front and counted in the result.
+// step: updates made so far, advanced by one unless no point of the batch is valid.
+// samples: effective number of samples that the statistics stand for; it scales the prior.
+struct StepwiseResult {
+  int count = 0;
+  int rejected = 0;
+};
+StepwiseResult stepwise_update(std::span<GaussianComponent> components,
+                               std::span<ComponentStatistics> statistics, float& step,
+                               std::span<const WeightedPoint> batch, float samples,
+                               const MixturePrior& prior, float max_weight = kMaxTrainingWeight);
+
+// Stepwise EM: one mixture trained from a stream of batches. Statistics are kept normalised
+// (sum of s0 = 1) and decayed by eta_i = (i + 1)^-0.7.
+class StepwiseEm {
+ public:
+  // statistics: parallel to components, or empty before the first update.
+  StepwiseEm(std::vector<GaussianComponent> components, std::vector<ComponentStatistics> statistics,
+             float step)
+      : components_(std::move(components)), statistics_(std::move(statistics)), step_(step) {
+    statistics_.resize(components_.size());
+  }
+
+  void update(std::span<const WeightedPoint> batch, float samples, const MixturePrior& prior) {
+    const StepwiseResult result =
+        stepwise_update(components_, statistics_, step_, batch, samples, prior);
+    components_.resize(result.count);
+    statistics_.resize(result.count);
+    rejected_ += result.rejected;
+  }
+
+  const std::vector<GaussianComponent>& components() const { return components_; }
+  const std::vector<ComponentStatistics>& statistics() const { return statistics_; }
+  float step() const { return step_; }
+  int rejected() const { return rejected_; }  // points in all
+
+ private:
+  std::vector<GaussianComponent> components_;
+  std::vector<ComponentStatistics> statistics_;
+  float step_;
+  int rejected_ = 0;
+};
+
+}  // namespace waylight

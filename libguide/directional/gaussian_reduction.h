@@ -1,0 +1,32 @@
+#pragma once
+// Fewer components for a mixture by greedy merging [Runnalls 2007].
+
+#include <span>
+#include <vector>
+
+#include "libguide/records/gaussian.h"
+
+namespace waylight {
+
+// The one Gaussian with the weight, mean and covariance of two.
+GaussianComponent merge(const GaussianComponent& i, const GaussianComponent& j);
+
+// Runnalls' upper bound of the Kullback-Leibler discrimination of a mixture from the one with the
+// two merged, B = ((w_i + w_j) ln|Sigma| - w_i ln|Sigma_i| - w_j ln|Sigma_j|) / 2, in nats. Never
+// negative; the bounds of successive merges telescope, so a sum does not depend on their order.
+double merge_cost(const GaussianComponent& i, const GaussianComponent& j);
+
+struct ReductionResult {
+  std::vector<GaussianComponent> components;  // weights normalised
+  double cost = 0;                            // of the merges made, for weights that sum to 1
+  double collapse_cost = 0;                   // of merging all into one
+  double percent() const { return collapse_cost > 0 ? 100 * cost / collapse_cost : 0; }
+};
+
+// Merges the cheapest pair while the accumulated cost stays below max_cost percent of
+// collapse_cost, and on until no more than max_components (>= 1) are left. At most 64 components;
+// those that are no Gaussians (see GaussianMixture) are left out.
+ReductionResult reduce_mixture(std::span<const GaussianComponent> components, float max_cost,
+                               int max_components);
+
+}  // namespace waylight

@@ -1,0 +1,66 @@
+#pragma once
+// The directional decision of one path vertex: delta lobe, BSDF or guide.
+
+#include <optional>
+
+#include "libguide/directional/gaussian_product.h"
+#include "libguide/guiding/guiding_caches.h"
+#include "libguide/scene/scene.h"
+
+namespace waylight {
+
+enum class DirectionGuide { none, illumination, product };
+
+struct DirectionSample {
+  Vec3 wi;        // world space
+  Color weight;   // f |cos| / pdf of everything chosen here
+  float pdf = 0;  // of the smooth part, per steradian, the chance of choosing it included
+  bool is_delta = false;
+  float eta = 1;
+  Color bsdf_weight;  // the weight that BSDF sampling would have given; drives Russian roulette
+};
+
+// Density over the smooth part:
+//   p(wi) = (1 - P_delta) [(1 - g) p_bsdf(wi) + g p_guide(wi)],
+// one-sample MIS with g the guiding probability where a guide is at hand and 0 elsewhere, so the
+// density is positive wherever the BSDF's own is. p_guide is a sub-density: what falls below the
+// horizon or outside the plane is a sample of value zero.
+class DirectionSampler {
+ public:
+  DirectionSampler(const Scene& scene, const GuidingCaches& caches, DirectionGuide guide,
+                   float guiding_prob, const SurfacePoint& at, const Vec3& wo);
+  DirectionSampler(const DirectionSampler&) = delete;
+  DirectionSampler& operator=(const DirectionSampler&) = delete;
+
+  // f(wo, wi) |cos wi| of the smooth part; zero where geometric and shading side disagree.
+  Color eval(const Vec3& wi) const;
+  std::optional<DirectionSample> sample(float u, float u_lobe, const Vec2& u2) const;
+  float pdf(const Vec3& wi) const;
+
+  bool has_smooth() const { return has_smooth_; }
+  bool guided() const { return guiding_prob_ > 0; }
+  const ResolvedBsdf& resolved() const { return resolved_; }
+
+ private:
+  void prepare_guide(const GuidingCaches& caches, DirectionGuide guide, const SurfacePoint& at,
+                     const Vec3& wo);
+  bool prepare_product(const GuidingCaches& caches, int material);
+  std::optional<Vec3> sample_guide(float u, const Vec2& u2) const;
+  float guide_pdf(const Vec3& wi) const;
+  std::optional<DirectionSample> sample_smooth(float u, float u_lobe, const Vec2& u2) const;
+  std::optional<DirectionSample> sample_delta(float u) const;
+  bool same_side(const Vec3& wi, const Vec3& wi_local) const;
+
+  ResolvedBsdf resolved_;
+  Vec3 ng_, wo_local_;
+  float ng_side_;  // -1 where the shading frame was flipped against ng, else 1
+  bool has_smooth_ = false;
+  float delta_prob_ = 0;
+  float guiding_prob_ = 0;
+  Frame cell_frame_;
+  GaussianMixture light_;
+  GaussianMixture brdf_;
+  std::optional<GaussianProduct> product_;
+};
+
+}  // namespace waylight

@@ -1,0 +1,67 @@
+#include "libguide/math/distribution.h"
+
+namespace waylight {
+
+Discrete::Discrete(std::span<const float> weights) : cdf_(weights.size() + 1, 0.0f) {
+  for (const float w : weights) total_ += w;
+  if (total_ <= 0) return;
+  double sum = 0;
+  for (size_t i = 0; i < weights.size(); ++i) {
+    sum += weights[i];
+    cdf_[i + 1] = static_cast<float>(sum / total_);
+  }
+}
+
+// The last index whose cdf is at most u: indices of no probability are stepped over. The last entry
+// is exactly one, as sum and total add the same terms in the same order.
+Discrete::Sample Discrete::sample(float u) const {
+  const auto above = std::upper_bound(cdf_.begin(), cdf_.end(), u);
+  const int index = static_cast<int>(above - cdf_.begin()) - 1;
+  const float p = prob(index);
+  return {index, p, std::min((u - cdf_[index]) / p, kOneMinusEpsilon)};
+}
+
+PiecewiseConstant1d::Sample PiecewiseConstant1d::sample(float u) const {
+  const Discrete::Sample chosen = cells_.sample(u);
+  const float x = (static_cast<float>(chosen.index) + chosen.u) / static_cast<float>(size());
+  return {std::min(x, kOneMinusEpsilon), chosen.prob * static_cast<float>(size()), chosen.index,
+          chosen.u};
+}
+
+int PiecewiseConstant1d::cell_of(float x) const {
+  return std::clamp(static_cast<int>(x * static_cast<float>(size())), 0, size() - 1);
+}
+
+float PiecewiseConstant1d::invert(float x) const {
+  const int cell = cell_of(x);
+  const float inside = x * static_cast<float>(size()) - static_cast<float>(cell);
+  return std::min(cells_.cdf(cell) + inside * cells_.prob(cell), kOneMinusEpsilon);
+}
+
+PiecewiseConstant2d::PiecewiseConstant2d(std::span<const float> weights, int width, int height) {
+  std::vector<float> row_weights;
+  columns_.reserve(height);
+  for (int y = 0; y < height; ++y) {
+    columns_.emplace_back(weights.subspan(static_cast<size_t>(y) * width, width));
+    row_weights.push_back(static_cast<float>(columns_.back().total()));
+  }
+  rows_ = PiecewiseConstant1d(row_weights);
+}
+
+float PiecewiseConstant2d::pdf(const Vec2& p) const {
+  const int row = rows_.cell_of(p.y());
+  return rows_.cell_pdf(row) * columns_[row].pdf(p.x());
+}
+
+PiecewiseConstant2d::Sample PiecewiseConstant2d::sample(const Vec2& u) const {
+  const PiecewiseConstant1d::Sample y = rows_.sample(u.y());
+  const PiecewiseConstant1d::Sample x = columns_[y.cell].sample(u.x());
+  return {{x.x, y.x}, x.pdf * y.pdf, x.cell, y.cell, {x.inside, y.inside}};
+}
+
+Vec2 PiecewiseConstant2d::invert(const Vec2& p) const {
+  const float v = rows_.invert(p.y());
+  return {columns_[rows_.cell_of(p.y())].invert(p.x()), v};
+}
+
+}  // namespace waylight

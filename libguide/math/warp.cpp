@@ -1,0 +1,57 @@
+#include "libguide/math/warp.h"
+
+namespace waylight {
+
+Vec2 square_to_disk(const Vec2& u) {
+  const float a = 2 * u.x() - 1, b = 2 * u.y() - 1;
+  if (a == 0 && b == 0) return Vec2::Zero();
+  float r, phi;
+  if (std::abs(a) > std::abs(b)) {
+    r = a;
+    phi = kPi / 4 * (b / a);
+  } else {
+    r = b;
+    phi = kPi / 2 - kPi / 4 * (a / b);
+  }
+  return {r * std::cos(phi), r * std::sin(phi)};
+}
+
+Vec2 disk_to_square(const Vec2& p) {
+  const bool x_major = std::abs(p.x()) > std::abs(p.y());
+  const float r = std::copysign(p.norm(), x_major ? p.x() : p.y());
+  if (r == 0) return {0.5f, 0.5f};
+  const float minor = r * (4 / kPi) * std::atan(x_major ? p.y() / p.x() : p.x() / p.y());
+  const Vec2 centred = x_major ? Vec2(r, minor) : Vec2(minor, r);
+  return 0.5f * (centred + Vec2::Ones());
+}
+
+Vec3 square_to_sphere(const Vec2& u) {
+  const float r = 2 * safe_sqrt(u.x() * (1 - u.x())), phi = 2 * kPi * u.y();
+  return {r * std::cos(phi), r * std::sin(phi), 1 - 2 * u.x()};
+}
+
+namespace {
+
+float azimuth_to_unit(const Vec3& w) {
+  const float phi = std::atan2(w.y(), w.x());
+  return std::min((phi < 0 ? phi + 2 * kPi : phi) / (2 * kPi), kOneMinusEpsilon);
+}
+
+}  // namespace
+
+Vec2 sphere_to_square(const Vec3& w) { return {0.5f * (1 - w.z()), azimuth_to_unit(w)}; }
+
+Vec3 square_to_cone(const Vec2& u, float cos_max) {
+  // With d = 1 - z, r^2 = d (2 - d): no cancellation in a narrow cone.
+  const float d = u.x() * (1 - cos_max);
+  const float r = safe_sqrt(d * (2 - d)), phi = 2 * kPi * u.y();
+  return {r * std::cos(phi), r * std::sin(phi), 1 - d};
+}
+
+Vec2 cone_to_square(const Vec3& w, float cos_max) {
+  // 1 - z from r^2 = (1 - z) (1 + z) where z itself has lost its digits.
+  const float d = w.z() > 0.5f ? w.head<2>().squaredNorm() / (1 + w.z()) : 1 - w.z();
+  return {d / (1 - cos_max), azimuth_to_unit(w)};
+}
+
+}  // namespace waylight

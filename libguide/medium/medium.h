@@ -1,0 +1,44 @@
+#pragma once
+// Participating media as imported. Coefficients are per unit length of the world.
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "libguide/math/types.h"
+
+namespace waylight {
+
+struct IsotropicPhase {};
+struct HenyeyGreenstein {
+  float g = 0;  // mean cosine, (-1, 1); positive is forward
+};
+using PhaseFunction = std::variant<IsotropicPhase, HenyeyGreenstein>;
+
+// A dense grid of 1 or 3 channels; voxel (x, y, z) at (z * size.y + y) * size.x + x.
+struct VolumeGrid {
+  Eigen::Vector3i size = Eigen::Vector3i::Zero();
+  int channels = 1;
+  std::vector<float> values;
+  Mat4 grid_to_world = Mat4::Identity();  // [0,1]^3 of the grid to the world
+};
+using VolumeTexture = std::variant<Color, std::shared_ptr<const VolumeGrid>>;
+
+struct HomogeneousMedium {
+  Color sigma_t, albedo;
+};
+// sigma_t(x) = scale * density(x).
+struct HeterogeneousMedium {
+  VolumeTexture density;
+  VolumeTexture albedo;
+  float scale = 1;
+};
+
+struct Medium {
+  std::string name;
+  std::variant<HomogeneousMedium, HeterogeneousMedium> coefficients;
+  PhaseFunction phase;
+};
+
+}  // namespace waylight

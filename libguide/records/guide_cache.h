@@ -1,0 +1,60 @@
+#pragma once
+// Illumination cache: a tree over position and surface orientation whose cells hold mixtures.
+
+#include <cstdint>
+#include <vector>
+
+#include "libguide/math/types.h"
+#include "libguide/records/gaussian.h"
+#include "libguide/spatial/orientation_tree.h"
+
+namespace waylight {
+
+struct CacheCell {
+  Vec3 normal = Vec3::UnitZ();  // of the cell's frame: Frame(normal); the mixture's plane is its disk
+  float irradiance = 0;    // W/m^2, luminance, estimated from the photon power per surface area
+  float photon_count = 0;  // photons that the mixture saw, half of its parent's included
+  float effective_samples = 0;  // (sum w)^2 / sum w^2 of their weights
+  float guided_mass = 0;        // share of the mixture's mass inside the domain
+  uint32_t first_component = 0;
+  uint32_t component_count = 0;
+};
+
+// The decayed sufficient statistics of one component, kept so that training can go on: s0 its share
+// of the weight (they sum to 1 over a mixture), s1 = s0 mean, s2 the second moments about the mean,
+// times s0. Moments about the origin would cancel in float for lobes narrower than a degree.
+// Dropped by reduction.
+struct ComponentStatistics {
+  float s0 = 0, s1_x = 0, s1_y = 0, s2_xx = 0, s2_xy = 0, s2_yy = 0;
+};
+
+// What one cell needs to go on training. A photon's weight is the luminance of its power times the
+// particles that its stream emitted, so that streams of any length stand on one footing.
+struct CellTraining {
+  // Of the photons since the cell was made: means, sums of squared deviations, and for the position
+  // sums of their products xy, xz, yz.
+  Vec3 position_mean = Vec3::Zero(), position_m2 = Vec3::Zero(), position_cross = Vec3::Zero();
+  Vec3 normal_mean = Vec3::Zero(), normal_m2 = Vec3::Zero();
+  float count = 0;
+  double flux = 0;                 // sum of weights since the cell was made
+  double born = 0;                 // photons of the whole training when the cell was made
+  float inherited_irradiance = 0;  // of the parent, in weight per area and photon
+  float step = 0;                  // stepwise-EM updates made so far; 0 is no mixture yet
+  float samples = 0;               // effective number of photons that the EM statistics stand for
+  // Sums over the photons that the mixture saw, half of the parent's included.
+  double weight_sum = 0, weight_sum2 = 0;
+};
+
+struct GuideCache {
+  Bounds scene_bounds;
+  uint64_t emitted = 0;  // particles behind the whole training
+  uint32_t passes = 0;   // photon streams consumed
+  uint64_t photons = 0;  // photons in these streams, refused ones included
+  std::vector<CacheNode> nodes;
+  std::vector<CacheCell> cells;
+  std::vector<GaussianComponent> components;
+  std::vector<ComponentStatistics> statistics;  // parallel to components, or empty
+  std::vector<CellTraining> training;           // parallel to cells, or empty
+};
+
+}  // namespace waylight

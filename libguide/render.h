@@ -1,0 +1,56 @@
+#pragma once
+// Stage: path tracing with next-event estimation and MIS; directions by BSDF, illumination guiding
+// [Vorba et al. 2014] or product guiding [Herholz et al. 2016].
+
+#include "libguide/base/run_control.h"
+#include "libguide/cache/guide_cache_view.h"
+#include "libguide/image/image.h"
+#include "libguide/records/aov_set.h"
+#include "libguide/records/brdf_cache.h"
+#include "libguide/scene/scene.h"
+
+namespace waylight {
+
+enum class RenderMode { bsdf, illumination, product };
+
+struct RenderOptions {
+  RenderMode mode = RenderMode::bsdf;
+  // The render stops at whichever comes first; at least one must be set.
+  int spp = 0;      // samples per pixel, 0: no limit
+  double time = 0;  // seconds of rendering, 0: no limit
+  float error = 0;  // relMSE estimated from the image's own variance, 0: no limit
+  uint64_t seed = 0;
+  int width = 0, height = 0;  // 0: the scene's; cropped scenes keep their window in proportion
+  int crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0;  // pixels; crop_width 0: scene's
+  int max_depth = -2;         // path edges; -1 no limit, -2 the scene's
+  int rr_depth = -1;          // path edges before Russian roulette; -1 the scene's
+  float guiding_prob = 0.5f;  // share of smooth scattering sampled from the guide, 0..0.99
+  AovSet aovs;
+
+  void validate() const;
+};
+
+// What guides. `guide` may be empty in mode bsdf, `brdf` is needed in mode product only.
+struct RenderCaches {
+  const BrdfCache* brdf = nullptr;
+  GuideCacheView guide;
+};
+
+struct RenderSummary {
+  int width = 0, height = 0;  // of the image
+  double mean_spp = 0;
+  double seconds = 0;            // rendering alone
+  uint64_t rays = 0;             // camera, scattered and shadow rays
+  double mean_path_length = 0;   // edges
+  double guiding_share = 0;      // share of smooth scattering events that had a guide
+  double estimated_relmse = 0;   // of the image, from its own variance
+  uint64_t invalid_samples = 0;  // NaN or infinite, counted as zero
+  bool interrupted = false;
+};
+
+// Channels R, G, B and those of `aovs`. The same bytes for equal inputs at any thread count, unless
+// `time` ends the render.
+Image render(const Scene& scene, const RenderCaches& caches, const RenderOptions& options,
+             RenderSummary* summary, const RunControl& control);
+
+}  // namespace waylight

@@ -1,0 +1,165 @@
+// Every mode of the renderer has the mean of path tracing, whatever the caches say.
+
+#include <gtest/gtest.h>
+
+#include "common/small_scenes.h"
+#include "libguide/base/error.h"
+#include "libguide/base/parallel.h"
+#include "libguide/brdf_fit.h"
+#include "libguide/cache_train.h"
+#include "libguide/photon_trace.h"
+#include "libguide/render.h"
+
+namespace waylight {
+namespace {
+
+struct Trained {
+  BrdfCache brdf;
+  GuideCache guide;
+
+  RenderCaches caches() const { return {&brdf, GuideCacheView(guide)}; }
+};
+
+Trained train(const Scene& scene, uint64_t photons) {
+  PhotonTraceOptions trace;
+  trace.count = photons;
+  CacheTrainOptions options;
+  options.photons_per_cell = 1000;
+  CacheTrainer trainer(options, {scene.bounds(), photons, 0});
+  trace_photons(scene, trace, [&](std::span<const Photon> batch) { trainer.consume(batch); }, {});
+  BrdfFitOptions fit;
+  fit.elevations = 32;
+  return {fit_brdfs(scene.description(), fit, {}).cache, trainer.finish(nullptr)};
+}
+
+Image render_mode(const Scene& scene, const Trained& trained, RenderMode mode, int spp,
+                  uint64_t seed, RenderSummary* summary = nullptr) {
+  RenderOptions options;
+  options.mode = mode;
+  options.spp = spp;
+  options.seed = seed;
+  options.aovs.variance = true;
+  return render(scene, trained.caches(), options, summary, {});
+}
+
+// z of the difference of the image means of two renders.
+double mean_z(const Image& a, const Image& b) {
+  double difference = 0, variance = 0;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        difference += a.at(x, y, c) - b.at(x, y, c);
+        variance += a.at(x, y, 3 + c) + b.at(x, y, 3 + c);
+      }
+  // Channels of one pixel go together: three times the variance bounds their covariance.
+  return difference / std::sqrt(3 * variance);
+}
+
+// Share of pixels whose z-score is beyond three.
+double share_beyond_three(const Image& a, const Image& b) {
+  int beyond = 0;
+  for (int y = 0; y < a.height; ++y)
+    for (int x = 0; x < a.width; ++x) {
+      const double variance = a.at(x, y, 4) + b.at(x, y, 4);
+      beyond += std::abs(a.at(x, y, 1) - b.at(x, y, 1)) > 3 * std::sqrt(variance) + 1e-6;
+    }
+  return double(beyond) / (a.width * a.height);
+}
+
+class SlowRenderModes : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scene = new Scene(testing::gap_box());
+    trained = new Trained(train(*scene, 200'000));
+    reference = new Image(render_mode(*scene, *trained, RenderMode::bsdf, 4096, 77));
+  }
+  static void TearDownTestSuite() {
+    delete reference;
+    delete trained;
+    delete scene;
+  }
+  static Scene* scene;
+  static Trained* trained;
+  static Image* reference;
+};
+Scene* SlowRenderModes::scene = nullptr;
+Trained* SlowRenderModes::trained = nullptr;
+Image* SlowRenderModes::reference = nullptr;
+
+TEST_F(SlowRenderModes, IlluminationGuidingHasTheMeanOfPathTracing) {
+  const Image image = render_mode(*scene, *trained, RenderMode::illumination, 1024, 5);
+  EXPECT_LT(std::abs(mean_z(image, *reference)), 3.5);
+  EXPECT_LT(share_beyond_three(image, *reference), 0.02);
+}
+
+TEST_F(SlowRenderModes, ProductGuidingHasTheMeanOfPathTracing) {
+  const Image image = render_mode(*scene, *trained, RenderMode::product, 1024, 5);
+  EXPECT_LT(std::abs(mean_z(image, *reference)), 3.5);
+  EXPECT_LT(share_beyond_three(image, *reference), 0.02);
+}
+
+TEST_F(SlowRenderModes, GuidingLowersTheErrorOfLightThroughAGap) {
+  RenderSummary bsdf, illumination, product;
+  render_mode(*scene, *trained, RenderMode::bsdf, 256, 5, &bsdf);
+  render_mode(*scene, *trained, RenderMode::illumination, 256, 5, &illumination);
+  render_mode(*scene, *trained, RenderMode::product, 256, 5, &product);
+  EXPECT_LT(illumination.estimated_relmse, 0.5 * bsdf.estimated_relmse);
+  EXPECT_LT(product.estimated_relmse, 0.4 * bsdf.estimated_relmse);
+  EXPECT_GT(product.guiding_share, 0.8);
+}
+
+TEST_F(SlowRenderModes, ACacheOfNonsenseDoesNotBias) {
+  Trained wrong = *trained;
+  std::reverse(wrong.guide.cells.begin(), wrong.guide.cells.end());
+  const Image image = render_mode(*scene, wrong, RenderMode::product, 2048, 5);
+  EXPECT_LT(std::abs(mean_z(image, *reference)), 3.5);
+}
+
+TEST_F(SlowRenderModes, PixelsAreTheSameAtAnyThreadCount) {
+  for (const RenderMode mode : {RenderMode::bsdf, RenderMode::illumination, RenderMode::product}) {
+    const auto with_threads = [&](int threads) {
+      const ThreadLimit limit(threads);
+      return render_mode(*scene, *trained, mode, 8, 3).pixels;
+    };
+    EXPECT_EQ(with_threads(1), with_threads(2));
+  }
+}
+
+TEST(RenderFurnace, DiffuseSphereUnderConstantLightReflectsItsAlbedo) {
+  SceneDescription description;
+  const int grey = testing::add_material(description, "grey", DiffuseMaterial{Texture(0.8f)});
+  testing::add_shape(description, Sphere{{0, 0, 3}, 1.0f, Mat3::Identity()}, grey);
+  description.emitters.push_back(ConstantEnvironment{Color(1, 2, 3)});
+  testing::look_along_z(description, {0, 0, 0}, 3, 3);
+  description.sensor.fov_x = 0.1f;
+  const Scene scene(std::move(description));
+  RenderOptions options;
+  options.spp = 64;
+  const Image image = render(scene, {}, options, nullptr, {});
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at(1, 1, c), 0.8 * (c + 1), 1e-3 * (c + 1));
+}
+
+TEST(RenderFurnace, ClosedBoxOfEmittersShowsTheGeometricSeries) {
+  // Every wall emits 1 and reflects 0.5: radiance is 1 / (1 - 0.5) everywhere.
+  SceneDescription description;
+  const int grey = testing::add_material(description, "grey", DiffuseMaterial{Texture(0.5f)});
+  const Vec3 corner(-1, -1, -1), x(2, 0, 0), y(0, 2, 0), z(0, 0, 2);
+  for (const TriangleMesh& wall :
+       {testing::rectangle(corner, z, x), testing::rectangle(corner + y, x, z),
+        testing::rectangle(corner, y, z), testing::rectangle(corner + x, z, y),
+        testing::rectangle(corner, x, y), testing::rectangle(corner + z, y, x)})
+    testing::make_light(description, testing::add_shape(description, wall, grey), Color(1, 1, 1));
+  testing::look_along_z(description, {0.1f, 0, -0.5f}, 4, 4);
+  const Scene scene(std::move(description));
+  RenderOptions options;
+  options.spp = 1024;
+  const Image image = render(scene, {}, options, nullptr, {});
+  double mean = 0;
+  for (const float value : image.pixels) mean += value / image.pixels.size();
+  EXPECT_NEAR(mean, 2.0, 0.01);
+}
+
+TEST(RenderOptionsTest, WantsAStoppingRule) { EXPECT_THROW(RenderOptions{}.validate(), Misuse); }
+
+}  // namespace
+}  // namespace waylight

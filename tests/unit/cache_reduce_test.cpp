@@ -1,0 +1,88 @@
+#include "libguide/cache_reduce.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "libguide/base/error.h"
+#include "libguide/base/parallel.h"
+#include "unit/directional/mixtures.h"
+
+namespace waylight {
+namespace {
+
+BrdfCache brdf_cache(int entries) {
+  BrdfCache cache;
+  for (int i = 0; i < entries; ++i) {
+    const auto components = test::random_components(1 + i % 8, i);
+    cache.entries.push_back({static_cast<uint32_t>(cache.components.size()),
+                             static_cast<uint32_t>(components.size()), 0.1f});
+    cache.components.insert(cache.components.end(), components.begin(), components.end());
+  }
+  return cache;
+}
+
+TEST(CacheReduce, EntriesReferToTheirOwnReducedMixture) {
+  const BrdfCache before = brdf_cache(40);
+  CacheReduceSummary summary;
+  const BrdfCache after = reduce(before, {20, 3}, &summary);
+  ASSERT_EQ(after.entries.size(), before.entries.size());
+  size_t next = 0;
+  for (size_t i = 0; i < after.entries.size(); ++i) {
+    EXPECT_EQ(after.entries[i].first_component, next);
+    EXPECT_LE(after.entries[i].component_count, 3u);
+    next += after.entries[i].component_count;
+    double mean_before = 0, total = 0, mean_after = 0;
+    for (uint32_t k = 0; k < before.entries[i].component_count; ++k) {
+      const auto& c = before.components[before.entries[i].first_component + k];
+      mean_before += c.weight * c.mean_x, total += c.weight;
+    }
+    for (uint32_t k = 0; k < after.entries[i].component_count; ++k) {
+      const auto& c = after.components[after.entries[i].first_component + k];
+      mean_after += c.weight * c.mean_x;
+    }
+    EXPECT_NEAR(mean_after, mean_before / total, 1e-5);
+  }
+  EXPECT_EQ(after.components.size(), next);
+  EXPECT_EQ(summary.mixtures, 40u);
+  EXPECT_DOUBLE_EQ(summary.components_before, 4.5);
+  EXPECT_DOUBLE_EQ(summary.components_after, next / 40.0);
+}
+
+TEST(CacheReduce, GuideCacheLosesItsTrainingAndKeepsItsEmptyCells) {
+  GuideCache cache;
+  const auto components = test::random_components(8, 1);
+  cache.components = components;
+  cache.statistics.resize(8);
+  cache.training.resize(2);
+  cache.cells.resize(2);
+  cache.cells[1].component_count = 8;
+  CacheReduceSummary summary;
+  const GuideCache after = reduce(cache, {10, 4}, &summary);
+  EXPECT_TRUE(after.statistics.empty());
+  EXPECT_TRUE(after.training.empty());
+  EXPECT_EQ(after.cells[0].component_count, 0u);
+  EXPECT_LE(after.cells[1].component_count, 4u);
+  EXPECT_EQ(after.components.size(), after.cells[1].component_count);
+  EXPECT_NEAR(after.cells[1].guided_mass, mass_inside(GaussianMixture(after.components)), 1e-6);
+  EXPECT_EQ(summary.mixtures, 1u);
+}
+
+TEST(CacheReduce, TheSameBytesForAnyNumberOfThreads) {
+  const auto bytes = [](int threads) {
+    const ThreadLimit limit(threads);
+    return reduce(brdf_cache(200), {15, 8}, nullptr).components;
+  };
+  const auto one = bytes(1), two = bytes(2);
+  ASSERT_EQ(one.size(), two.size());
+  EXPECT_EQ(std::memcmp(one.data(), two.data(), one.size() * sizeof(one[0])), 0);
+}
+
+TEST(CacheReduce, OptionsOutOfRangeNameTheOption) {
+  EXPECT_THROW(reduce(BrdfCache{}, {101, 8}, nullptr), Misuse);
+  EXPECT_THROW(reduce(BrdfCache{}, {10, 0}, nullptr), Misuse);
+  EXPECT_THROW(reduce(BrdfCache{}, {std::nanf(""), 8}, nullptr), Misuse);
+}
+
+}  // namespace
+}  // namespace waylight

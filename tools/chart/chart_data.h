@@ -1,0 +1,36 @@
+#pragma once
+// The lines of a chart, from tables that image-compare writes.
+
+#include <string>
+#include <vector>
+
+namespace waylight {
+
+struct ChartOptions {
+  std::vector<std::string> tables;  // CSV files
+  std::string output;               // SVG
+  std::string title;
+  std::string x = "seconds", y = "relmse";  // columns
+  bool preprocess = false;                  // add preprocess_seconds to x
+  bool png = false;                         // write a PNG beside the SVG too
+
+  void validate() const;
+};
+
+// Rows that share line and x: the geometric mean of y, and its range over seeds.
+struct ChartPoint {
+  double x = 0, y = 0, low = 0, high = 0;
+  int rows = 0;
+};
+
+struct ChartLine {
+  std::string name;                // of the method, and of the scene when there are several
+  std::vector<ChartPoint> points;  // x rises
+};
+
+// Lines in the order in which they appear. Renders that are limited by time end a little late, so
+// seconds within 5 % of each other count as equal. Throws Error naming file and row for a column
+// that is missing and for values that logarithmic axes cannot show.
+std::vector<ChartLine> chart_lines(const ChartOptions& options);
+
+}  // namespace waylight

@@ -1,0 +1,23 @@
+#include "tools/chart/chart_tool.h"
+
+#include <filesystem>
+
+#include "formats/atomic_file.h"
+#include "tools/chart/gnuplot.h"
+
+namespace waylight {
+
+void chart(const ChartOptions& options) {
+  options.validate();
+  const std::vector<ChartLine> lines = chart_lines(options);
+  const auto draw = [&](ChartFormat format, const std::string& path) {
+    write_atomically(path, [&](const std::string& temporary) {
+      run_gnuplot(gnuplot_script(options, lines, format, temporary));
+    });
+  };
+  draw(ChartFormat::svg, options.output);
+  if (options.png)
+    draw(ChartFormat::png, std::filesystem::path(options.output).replace_extension(".png"));
+}
+
+}  // namespace waylight

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "tools/chart/chart_data.h"
+
+namespace waylight {
+
+// Draws the chart into options.output and, when asked, a PNG of the same name.
+void chart(const ChartOptions& options);
+
+}  // namespace waylight

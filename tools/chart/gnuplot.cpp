@@ -1,0 +1,155 @@
+#include "tools/chart/gnuplot.h"
+
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <limits>
+
+#include "libguide/base/error.h"
+
+namespace waylight {
+namespace {
+
+// Told apart by readers with any colour vision [Okabe, Ito 2008, Color Universal Design].
+constexpr std::array kColors{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                             "#E69F00", "#56B4E9", "#5A5A5A"};
+constexpr std::array kPointTypes{7, 5, 9, 13, 11, 15};  // filled disk, square, triangles, ...
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+
+  void extend(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  // At least a factor of two, and room beside the outermost points.
+  Range padded() const {
+    const double factor = std::max(1.15, std::sqrt(2 * low / high));
+    return {low / factor, high * factor};
+  }
+};
+
+// Gnuplot expands nothing inside single quotes.
+std::string quoted(const std::string& text) {
+  std::string result(1, '\'');
+  for (char c : text) {
+    if (c == '\'') result += c;
+    result += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  result.push_back('\'');
+  return result;
+}
+
+std::string axis_commands(const char* axis, const Range& range) {
+  std::string ticks;
+  for (double tick : logarithmic_ticks(range.low, range.high))
+    ticks += fmt::format("{}'{:g}' {:.9g}", ticks.empty() ? "" : ", ", tick, tick);
+  return fmt::format("set {0}range [{1:.9g}:{2:.9g}]\nset {0}tics ({3})\n", axis, range.low,
+                     range.high, ticks);
+}
+
+std::string terminal(ChartFormat format) {
+  return format == ChartFormat::svg
+             ? "set terminal svg noenhanced size 900,600 dynamic font 'Helvetica,15' "
+               "background '#ffffff'\n"
+             : "set terminal pngcairo noenhanced size 1350,900 font 'Sans,16' "
+               "background '#ffffff'\n";
+}
+
+std::string label_of(const std::string& column) {
+  if (column == "seconds") return "render time (s)";
+  if (column == "spp") return "samples per pixel";
+  if (column == "relmse") return "relMSE";
+  if (column == "relmse_trimmed") return "relMSE without the worst 0.1 % of the pixels";
+  if (column == "mape") return "MAPE";
+  return "MSE";
+}
+
+std::string data_block(size_t index, const ChartLine& line) {
+  std::string block = fmt::format("$line{} << EOD\n", index);
+  for (const ChartPoint& p : line.points)
+    block += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.low, p.high);
+  return block + "EOD\n";
+}
+
+bool has_band(const ChartLine& line) {
+  for (const ChartPoint& p : line.points)
+    if (p.rows > 1) return true;
+  return false;
+}
+
+// Bands first, then the guide, then the lines on top.
+std::string plot_command(const std::vector<ChartLine>& lines) {
+  std::string command = "plot ";
+  for (size_t i = 0; i < lines.size(); ++i)
+    if (has_band(lines[i]))
+      command += fmt::format(
+          "$line{} using 1:3:4 with filledcurves fillcolor rgb '{}' fillstyle transparent solid "
+          "0.18 noborder notitle, ",
+          i, kColors[i % kColors.size()]);
+  const ChartPoint& anchor = lines[0].points[0];
+  command += fmt::format(
+      "{:.9g}/x with lines linecolor rgb '#9a9a9a' linewidth 1.5 dashtype 2 title 'slope -1'",
+      anchor.x * anchor.y);
+  for (size_t i = 0; i < lines.size(); ++i)
+    command += fmt::format(
+        ", $line{} using 1:2 with linespoints linecolor rgb '{}' linewidth 2.5 pointtype {} "
+        "pointsize 0.9 title {}",
+        i, kColors[i % kColors.size()], kPointTypes[i % kPointTypes.size()], quoted(lines[i].name));
+  return command + "\n";
+}
+
+}  // namespace
+
+std::vector<double> logarithmic_ticks(double low, double high) {
+  const bool dense = std::log10(high / low) <= 2.5;
+  std::vector<double> ticks;
+  for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10, power) <= high;
+       ++power)
+    for (int digit : {1, 2, 5}) {
+      const double tick = digit * std::pow(10, power);
+      if (tick >= low && tick <= high && (digit == 1 || dense)) ticks.push_back(tick);
+    }
+  return ticks;
+}
+
+std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartLine>& lines,
+                           ChartFormat format, const std::string& output) {
+  Range x, y;
+  for (const ChartLine& line : lines)
+    for (const ChartPoint& p : line.points) {
+      x.extend(p.x);
+      y.extend(p.low);
+      y.extend(p.high);
+    }
+  std::string script = terminal(format) + "set output " + quoted(output) + "\n";
+  for (size_t i = 0; i < lines.size(); ++i) script += data_block(i, lines[i]);
+  script += "set encoding utf8\nset samples 200\nset logscale xy\n";
+  script += axis_commands("x", x.padded()) + axis_commands("y", y.padded());
+  const std::string x_label =
+      options.preprocess ? "preprocessing and render time (s)" : label_of(options.x);
+  script += "set xlabel " + quoted(x_label) + "\nset ylabel " + quoted(label_of(options.y)) + "\n";
+  if (!options.title.empty()) script += "set title " + quoted(options.title) + "\n";
+  script +=
+      "set border 3 linecolor rgb '#404040'\nset tics nomirror out textcolor rgb '#202020'\n"
+      "set grid linecolor rgb '#dcdcdc' linewidth 1 linetype 1\n"
+      "set key top right opaque samplen 2.5 spacing 1.3 width 1 noautotitle\n";
+  return script + plot_command(lines);
+}
+
+void run_gnuplot(const std::string& script) {
+  // A gnuplot that ends early is told by its status, not by a signal that ends us.
+  const auto old_handler = std::signal(SIGPIPE, SIG_IGN);
+  std::FILE* pipe = ::popen("exec gnuplot -d", "w");
+  if (!pipe) fail("gnuplot cannot be started");
+  std::fwrite(script.data(), 1, script.size(), pipe);
+  const int status = ::pclose(pipe);
+  std::signal(SIGPIPE, old_handler);
+  constexpr int kNotFound = 127 << 8;
+  if (status == kNotFound)
+    fail("gnuplot was not found; install it (Debian: apt-get install gnuplot-nox)");
+  if (status != 0) fail("gnuplot ended with status {}; its message is above", status >> 8);
+}
+
+}  // namespace waylight

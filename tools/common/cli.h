@@ -1,0 +1,69 @@
+#pragma once
+// What all tools share: option parsing, help, exit codes, threads, progress, interruption.
+// A tool's main declares its options, calls its stage once, and reports.
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "libguide/base/run_control.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace waylight {
+
+// 0 success; the others are also what `Error`, `Misuse` and `Interrupted` become.
+enum ExitCode { kSuccess = 0, kFailure = 1, kMisuse = 2, kInterrupted = 130 };
+
+struct ToolInfo {
+  const char* name;      // of the executable
+  const char* summary;   // one line
+  const char* usage;     // what follows the name in the usage line
+  const char* teaching;  // end of --help: what to know, and examples
+};
+
+// Thrown by ToolRun::stop_if_interrupted().
+struct Interrupted {};
+
+// One run of a tool, handed to its body.
+class ToolRun {
+ public:
+  RunControl control;
+
+  // Canonical command line for provenance: what can change the result, in a fixed order and
+  // spelling; inputs by their file names without folders, no outputs, no thread count.
+  const std::string& command_line() const { return command_line_; }
+  // One line of the human-readable summary: to stdout (stderr while the result goes there);
+  // nothing with --quiet.
+  void print(const std::string& line) const;
+  // Writes the file of --stats, if asked for.
+  void write_stats(const nlohmann::ordered_json& stats) const;
+  // For stages whose partial result is of no use.
+  void stop_if_interrupted() const;
+
+ private:
+  friend class ToolRunner;
+  std::string command_line_, stats_path_;
+  bool quiet_ = false, stdout_taken_ = false;
+};
+
+// Parses, runs the body, prints the one error message, returns the exit code. Before the body
+// runs: inputs exist, outputs have a folder and are none of the inputs.
+int run_tool(int argc, char** argv, const ToolInfo& info,
+             const std::function<void(CLI::App&)>& declare,
+             const std::function<void(ToolRun&)>& body);
+
+// Marks an option (or positional) as naming input or output files; "-" is stdin or stdout.
+CLI::Option* as_input(CLI::Option* option);
+CLI::Option* as_output(CLI::Option* option);
+
+const char* version();                   // of the release
+size_t peak_memory_bytes();              // of this process
+std::string format_bytes(double bytes);  // "1.5 MB"
+std::string format_count(double count);  // "1.5 M"
+
+}  // namespace waylight

@@ -1,0 +1,27 @@
+#pragma once
+// Tables of comma-separated values with a header row [RFC 4180].
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace waylight {
+
+struct CsvTable {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;  // each as long as `columns`
+
+  int find(const std::string& column) const;  // its index, or -1
+};
+
+// Throws Error naming path and line of the defect.
+CsvTable read_csv(const std::string& path);
+
+using CsvRow = std::vector<std::pair<std::string, std::string>>;  // column, cell
+
+// Adds one row; a new or empty file gets the columns of the row as its header first. Columns that
+// the row lacks stay empty. Throws Error when the file lacks a column of the row. Safe against
+// other processes that append at the same time.
+void append_csv(const std::string& path, const CsvRow& row);
+
+}  // namespace waylight

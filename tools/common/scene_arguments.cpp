@@ -1,0 +1,53 @@
+#include "tools/common/scene_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include "formats/mitsuba.h"
+#include "libguide/base/error.h"
+
+namespace waylight {
+namespace {
+
+void add_import_options(CLI::App& app, SceneArguments& arguments) {
+  app.add_option("-D", arguments.defines, "Value for a $name of the scene; repeatable")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Scene");
+  app.add_flag("--lenient", arguments.lenient,
+               "Replace unknown materials by grey and leave unknown shapes out, with a warning")
+      ->group("Scene");
+}
+
+std::map<std::string, std::string> parse_defines(const std::vector<std::string>& defines) {
+  std::map<std::string, std::string> values;
+  for (const std::string& define : defines) {
+    const size_t equals = define.find('=');
+    require(equals != define.npos && equals > 0, "-D {}: write it as -D name=value", define);
+    values[define.substr(0, equals)] = define.substr(equals + 1);
+  }
+  return values;
+}
+
+}  // namespace
+
+void add_scene(CLI::App& app, SceneArguments& arguments) {
+  as_input(app.add_option("SCENE", arguments.path, "Mitsuba scene file (XML)"))->required();
+  add_import_options(app, arguments);
+}
+
+void add_scene_option(CLI::App& app, SceneArguments& arguments, const char* name,
+                      const char* description) {
+  as_input(app.add_option(name, arguments.path, description))->group("Scene");
+  add_import_options(app, arguments);
+}
+
+SceneDescription load_scene(const SceneArguments& arguments, const ToolRun& run) {
+  ImportOptions options;
+  options.defines = parse_defines(arguments.defines);
+  options.lenient = arguments.lenient;
+  options.on_warning = run.control.on_warning;
+  return import_mitsuba(arguments.path, options);
+}
+
+}  // namespace waylight

@@ -1,0 +1,135 @@
+#include "tools/image-compare/compare_tool.h"
+
+#include "formats/image_io.h"
+#include "libguide/base/error.h"
+#include "libguide/image/picture.h"
+#include "tools/common/csv.h"
+#include "tools/image-compare/report.h"
+
+namespace waylight {
+namespace {
+
+// Brings pictures that belong to the reference, or to the image, to the window that is compared.
+class Framing {
+ public:
+  Framing(const ImageCompareOptions& options, int width, int height)
+      : options_(options), width_(width), height_(height) {}
+
+  Bitmap operator()(const Bitmap& picture, const std::string& path, PixelQuantity quantity) const {
+    const bool fits = picture.width == width_ && picture.height == height_;
+    if (!fits && !options_.resize_reference)
+      fail(
+          "\"{}\": has {} x {} pixels, \"{}\" has {} x {}; --resize-reference reduces a larger one",
+          path, picture.width, picture.height, options_.image, width_, height_);
+    return window(fits ? picture : downsample(picture, width_, height_, quantity));
+  }
+
+ private:
+  Bitmap window(const Bitmap& picture) const {
+    const std::vector<int>& w = options_.crop;
+    return w.empty() ? picture : crop(picture, {w[0], w[1], w[2], w[3]});
+  }
+
+  const ImageCompareOptions& options_;
+  int width_, height_;
+};
+
+Bitmap colors_in(const Image& image, const std::string& path, const std::string& prefix) {
+  if (!has_color(image, prefix)) fail("\"{0}\": has no channels {1}R, {1}G, {1}B", path, prefix);
+  return color_of(image, prefix);
+}
+
+void add(Bitmap& sum, const Bitmap& term, double divisor) {
+  for (size_t i = 0; i < sum.pixels.size(); ++i)
+    sum.pixels[i] += term.pixels[i] / static_cast<float>(divisor);
+}
+
+// Of the difference: the sum of all variances named, each already in the window.
+Bitmap total_variance(const ImageCompareOptions& options, const Image& image,
+                      const Image& reference, const Framing& frame) {
+  const std::string own = "variance.";
+  std::optional<Bitmap> sum;
+  const auto add_term = [&](const Image& source, const std::string& path, const std::string& prefix,
+                            double divisor) {
+    const Bitmap term = frame(colors_in(source, path, prefix), path, PixelQuantity::variance);
+    if (!sum) {
+      sum = term;
+      for (Color& color : sum->pixels) color.setZero();
+    }
+    add(*sum, term, divisor);
+  };
+  for (const std::string& variance : options.variances) {
+    if (variance == "self") {
+      add_term(image, options.image, own, 1);
+      if (has_color(reference, own)) add_term(reference, options.reference, own, 1);
+    } else {
+      add_term(read_image(variance), variance, "", options.variance_samples);
+    }
+  }
+  return *sum;
+}
+
+void write_error_image(const std::string& path, const Bitmap& image, const Bitmap& reference) {
+  const std::vector<float> errors = relative_errors(image, reference);
+  const Bitmap colors = false_color(errors, image.width, image.height);
+  Image picture(image.width, image.height,
+                {"R", "G", "B", "relative_error", "difference.R", "difference.G", "difference.B"});
+  for (size_t i = 0; i < errors.size(); ++i) {
+    float* pixel = picture.pixels.data() + i * picture.channels.size();
+    for (int c = 0; c < 3; ++c) {
+      pixel[c] = colors.pixels[i][c];
+      pixel[4 + c] = image.pixels[i][c] - reference.pixels[i][c];
+    }
+    pixel[3] = errors[i];
+  }
+  path.ends_with(".exr") ? write_exr(path, picture) : write_png(path, picture);
+}
+
+CsvRow csv_row(const ImageLabels& labels, const CompareFigures& figures) {
+  CsvRow row;
+  for (const char* name : {"scene", "method", "seconds", "preprocess_seconds", "spp"})
+    row.emplace_back(name, labels.at(name));
+  const auto number = [&](const char* name, double value) {
+    row.emplace_back(name, fmt::format("{:.8g}", value));
+  };
+  number("mse", figures.mse);
+  number("relmse", figures.relmse);
+  number("relmse_trimmed", figures.relmse_trimmed);
+  number("mape", figures.mape);
+  number("mean", figures.mean);
+  number("ref_mean", figures.ref_mean);
+  return row;
+}
+
+}  // namespace
+
+void ImageCompareOptions::validate() const {
+  require(crop.empty() || crop.size() == 4, "--crop wants x,y,width,height");
+  require(tile_size >= 1 && tile_size <= 4096, "--tile {} is not in 1..4096", tile_size);
+  require(variance_samples >= 1, "--z-samples {} is less than 1", variance_samples);
+  for (const std::string& input : {image, reference})
+    for (const std::string& output : {csv, error_image})
+      require(output != input, "\"{}\" is input and output", output);
+}
+
+void image_compare(const ImageCompareOptions& options,
+                   const std::function<void(const std::string&)>& warn) {
+  options.validate();
+  const ImageLabels labels = collect_labels(options);
+  const Image image = read_image(options.image), reference = read_image(options.reference);
+  const Framing frame(options, image.width, image.height);
+  const Bitmap x = frame(colors_in(image, options.image, ""), options.image, PixelQuantity::mean);
+  const Bitmap ref =
+      frame(colors_in(reference, options.reference, ""), options.reference, PixelQuantity::mean);
+  ComparisonReport report{waylight::compare(x, ref), {}};
+  if (!options.variances.empty())
+    report.z =
+        z_scores(x, ref, total_variance(options, image, reference, frame), options.tile_size);
+  if (report.figures.non_finite > 0)
+    warn(fmt::format("{} pixels are not finite and left out", report.figures.non_finite));
+  if (!options.error_image.empty()) write_error_image(options.error_image, x, ref);
+  if (!options.csv.empty()) append_csv(options.csv, csv_row(labels, report.figures));
+  options.json ? print_json(labels, report) : print_table(report);
+}
+
+}  // namespace waylight

@@ -1,0 +1,35 @@
+#pragma once
+// What the tool image-compare does, apart from its command line.
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace waylight {
+
+struct ImageCompareOptions {
+  std::string image, reference;
+  std::string csv, error_image;               // files to write, empty: none
+  std::vector<std::string> variances;         // pictures, or "self"
+  double variance_samples = 1;                // pictures of variances are divided by this
+  int tile_size = 8;                          // pixels, 1..4096
+  std::vector<std::string> labels;            // name=value
+  std::string stats;                          // JSON of `render --stats`
+  std::vector<std::string> preprocess_stats;  // JSON of other stages
+  std::vector<int> crop;                      // x, y, width, height, or empty
+  bool resize_reference = false;
+  bool json = false;
+
+  void validate() const;
+};
+
+// Columns of the table that describe the image; values come from statistics, then from labels.
+using ImageLabels = std::map<std::string, std::string>;
+ImageLabels collect_labels(const ImageCompareOptions& options);
+
+// Prints the figures on stdout, and writes the files asked for.
+void image_compare(const ImageCompareOptions& options,
+                   const std::function<void(const std::string&)>& warn);
+
+}  // namespace waylight

@@ -1,0 +1,76 @@
+// Labels of an image: from the statistics that stages write, and from the command line.
+
+#include <nlohmann/json.hpp>
+
+#include "formats/file_bytes.h"
+#include "tools/image-compare/compare_tool.h"
+
+namespace waylight {
+namespace {
+
+using Json = nlohmann::json;
+
+Json read_statistics(const std::string& path) {
+  const Json json = Json::parse(read_whole_file(path), nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) fail("\"{}\": is not a JSON object of statistics", path);
+  return json;
+}
+
+// The first of the keys that holds a number or a string, or null.
+Json find_value(const Json& statistics, std::initializer_list<const char*> keys) {
+  for (const char* key : keys)
+    if (const auto found = statistics.find(key);
+        found != statistics.end() && (found->is_number() || found->is_string()))
+      return *found;
+  return nullptr;
+}
+
+std::string as_text(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+void take_statistics(const std::string& path, ImageLabels& labels) {
+  const Json statistics = read_statistics(path);
+  const auto take = [&](const char* label, std::initializer_list<const char*> keys) {
+    const Json value = find_value(statistics, keys);
+    if (!value.is_null()) labels[label] = as_text(value);
+  };
+  take("scene", {"scene"});
+  take("method", {"method", "mode"});
+  take("seconds", {"render_seconds", "seconds"});
+  take("preprocess_seconds", {"preprocess_seconds"});
+  take("spp", {"spp", "mean_spp"});
+}
+
+double preprocess_seconds(const std::vector<std::string>& paths) {
+  double sum = 0;
+  for (const std::string& path : paths) {
+    const Json seconds = find_value(read_statistics(path), {"seconds", "total_seconds"});
+    if (!seconds.is_number()) fail("\"{}\": holds no number \"seconds\"", path);
+    sum += seconds.get<double>();
+  }
+  return sum;
+}
+
+}  // namespace
+
+ImageLabels collect_labels(const ImageCompareOptions& options) {
+  ImageLabels labels;
+  for (const char* name : {"scene", "method", "seconds", "preprocess_seconds", "spp"})
+    labels[name] = "";
+  if (!options.stats.empty()) take_statistics(options.stats, labels);
+  if (!options.preprocess_stats.empty())
+    labels["preprocess_seconds"] =
+        fmt::format("{:.6g}", preprocess_seconds(options.preprocess_stats));
+  for (const std::string& label : options.labels) {
+    const size_t equals = label.find('=');
+    const std::string name = label.substr(0, equals);
+    require(
+        equals != std::string::npos && labels.count(name),
+        "--label \"{}\" is not one of scene=, method=, seconds=, preprocess_seconds=, spp=", label);
+    labels[name] = label.substr(equals + 1);
+  }
+  return labels;
+}
+
+}  // namespace waylight
