@@ -1,0 +1,51 @@
+#pragma once
+// *.photons: a stream of size-prefixed FlatBuffers chunks, so that it can be piped. Schema
+// photons.fbs, identifier "WPHO". The first chunk is the header, the last one says how many photons
+// went before it: a stream without it is truncated.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/provenance.h"
+#include "libguide/records/photon.h"
+
+namespace waylight {
+
+struct PhotonHeader {
+  Provenance provenance;
+  PhotonStreamInfo stream;
+};
+
+// Path "-" is stdout. A file appears under its name when finish() was called, and not otherwise.
+class PhotonWriter {
+ public:
+  PhotonWriter(const std::string& path, const PhotonHeader& header);
+  ~PhotonWriter();  // removes what finish() did not complete
+  void write(std::span<const Photon> photons);
+  void finish(const PhotonCounts& counts);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Path "-" is stdin. Memory is bounded by one chunk.
+class PhotonReader {
+ public:
+  explicit PhotonReader(const std::string& path);
+  ~PhotonReader();
+  const PhotonHeader& header() const;
+  // The next photons, or false at the end. Throws Error for a chunk that is damaged, out of place
+  // or missing. Photons with values that make no sense are an Error too.
+  bool read(std::vector<Photon>* photons);
+  const PhotonCounts& counts() const;  // after read() said false
+  uint64_t content_hash() const;       // of all bytes of the stream, after read() said false
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace waylight
