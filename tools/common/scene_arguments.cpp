@@ -50,4 +50,8 @@ SceneDescription load_scene(const SceneArguments& arguments, const ToolRun& run)
   return import_mitsuba(arguments.path, options);
 }
 
+void warn_of_repairs(const Scene& scene, const ToolRun& run) {
+  for (const std::string& warning : scene.build_warnings()) run.control.warn(warning);
+}
+
 }  // namespace waylight

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libguide/scene/scene_description.h"
+#include "libguide/scene/scene.h"
 #include "tools/common/cli.h"
 
 namespace waylight {
@@ -22,5 +22,7 @@ void add_scene_option(CLI::App& app, SceneArguments& arguments, const char* name
                       const char* description);
 
 SceneDescription load_scene(const SceneArguments& arguments, const ToolRun& run);
+// Says what building the scene repaired or left out.
+void warn_of_repairs(const Scene& scene, const ToolRun& run);
 
 }  // namespace waylight

@@ -1,0 +1,73 @@
+#include "tools/cache-reduce/cache_reduce_tool.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "formats/brdf_file.h"
+#include "formats/cache_file.h"
+#include "formats/file_kind.h"
+#include "libguide/base/error.h"
+#include "tools/common/provenance_of.h"
+
+namespace waylight {
+namespace {
+
+void report(const ToolRun& run, const Provenance& provenance, const CacheReduceArguments& arguments,
+            const CacheReduceSummary& s, double seconds) {
+  const auto before = std::filesystem::file_size(arguments.input);
+  const auto after = std::filesystem::file_size(arguments.output);
+  run.print(fmt::format("{} mixtures: {:.2f} -> {:.2f} components at {:.1f} % of the collapse cost",
+                        s.mixtures, s.components_before, s.components_after, s.mean_cost));
+  run.print(fmt::format("{} -> {} in {:.2f} s", format_bytes(double(before)),
+                        format_bytes(double(after)), seconds));
+  nlohmann::ordered_json stats = stats_of(provenance);
+  stats.update({{"seconds", seconds},
+                {"mixtures", s.mixtures},
+                {"components_before", s.components_before},
+                {"components_after", s.components_after},
+                {"mean_cost", s.mean_cost},
+                {"bytes_before", before},
+                {"bytes_after", after}});
+  run.write_stats(stats);
+}
+
+// Both kinds of file: read, reduce, write with the source as parent.
+template <typename File>
+Provenance reduce_file(const ToolRun& run, const ToolInfo& tool,
+                       const CacheReduceArguments& arguments, File file,
+                       void (*write)(const std::string&, const File&),
+                       CacheReduceSummary* summary) {
+  file.provenance = derived_provenance(run, tool, file.provenance, arguments.input);
+  file.cache = reduce(std::move(file.cache), arguments.options, summary);
+  write(arguments.output, file);
+  return file.provenance;
+}
+
+}  // namespace
+
+void cache_reduce(const ToolRun& run, const ToolInfo& tool, const CacheReduceArguments& arguments) {
+  arguments.options.validate();
+  const auto start = std::chrono::steady_clock::now();
+  CacheReduceSummary summary;
+  Provenance provenance;
+  switch (identify_file(arguments.input)) {
+    case FileKind::brdf:
+      provenance =
+          reduce_file(run, tool, arguments, read_brdf(arguments.input), write_brdf, &summary);
+      break;
+    case FileKind::cache:
+      provenance =
+          reduce_file(run, tool, arguments, read_cache(arguments.input), write_cache, &summary);
+      break;
+    default:
+      fail("\"{}\": holds no mixtures; give a .brdf or a .cache file", arguments.input);
+  }
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report(run, provenance, arguments, summary, seconds);
+}
+
+}  // namespace waylight

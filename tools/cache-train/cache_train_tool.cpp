@@ -1,0 +1,92 @@
+#include "tools/cache-train/cache_train_tool.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/cache_file.h"
+#include "formats/photon_file.h"
+#include "tools/common/provenance_of.h"
+
+namespace waylight {
+namespace {
+
+CacheFile read_previous(const CacheTrainArguments& arguments, const Provenance& photons) {
+  if (arguments.previous.empty()) return {};
+  CacheFile previous = read_cache(arguments.previous);
+  require_same_scene(arguments.previous, previous.provenance, photons.scene_name, photons.scene,
+                     SceneParts::all);
+  return previous;
+}
+
+void consume_all(PhotonReader& reader, CacheTrainer& trainer, const ToolRun& run) {
+  std::vector<Photon> photons;
+  for (double done = 0; reader.read(&photons);) {
+    run.stop_if_interrupted();
+    trainer.consume(photons);
+    done += static_cast<double>(photons.size());
+    run.control.progress(done, 0, "photons");
+  }
+}
+
+Provenance provenance(const ToolRun& run, const ToolInfo& tool,
+                      const CacheTrainArguments& arguments, const PhotonReader& reader) {
+  const Provenance& source = reader.header().provenance;
+  Provenance result = provenance_of(run, tool, source.seed);
+  result.scene_name = source.scene_name;
+  result.scene = source.scene;
+  const std::string name = arguments.photons == "-" ? "stdin" : file_name(arguments.photons);
+  result.parents.push_back({name, reader.content_hash()});
+  if (!arguments.previous.empty()) result.parents.push_back(parent_of(arguments.previous));
+  return result;
+}
+
+void report(const ToolRun& run, const Provenance& provenance, const CacheTrainSummary& s) {
+  const double photons = static_cast<double>(s.photons);
+  run.print(fmt::format("{} photons in {:.1f} s ({}/s)", format_count(photons), s.seconds,
+                        format_count(photons / std::max(s.seconds, 1e-9))));
+  run.print(
+      fmt::format("{} cells, {} with a mixture of {:.1f} components and {:.0f} effective samples",
+                  s.cells, s.cells_with_mixture, s.mean_components, s.mean_effective_samples));
+  run.print(fmt::format(
+      "{:.2f} % of the mixtures' mass lies outside the sphere; {} in training, peak {}",
+      100 * s.lost_mass, format_bytes(double(s.bytes)), format_bytes(double(peak_memory_bytes()))));
+  if (s.rejected > 0)
+    run.control.warn(fmt::format("{} photons made no sense and were left out", s.rejected));
+  if (s.cells_with_mixture == 0) run.control.warn("no cell saw enough photons for a mixture");
+  nlohmann::ordered_json stats = stats_of(provenance);
+  stats.update({{"seconds", s.seconds},
+                {"photons", s.photons},
+                {"rejected", s.rejected},
+                {"dropped_direct", s.dropped_direct},
+                {"weights_capped", s.weights_capped},
+                {"cells", s.cells},
+                {"cells_made", s.cells_made},
+                {"cells_with_mixture", s.cells_with_mixture},
+                {"mean_components", s.mean_components},
+                {"mean_effective_samples", s.mean_effective_samples},
+                {"lost_mass", s.lost_mass},
+                {"training_bytes", s.bytes},
+                {"peak_memory_bytes", peak_memory_bytes()}});
+  run.write_stats(stats);
+}
+
+}  // namespace
+
+void cache_train(const ToolRun& run, const ToolInfo& tool, const CacheTrainArguments& arguments) {
+  arguments.options.validate();
+  PhotonReader reader(arguments.photons);
+  const PhotonHeader& header = reader.header();
+  CacheFile previous = read_previous(arguments, header.provenance);
+  CacheTrainer trainer(arguments.options, header.stream, std::move(previous.cache));
+  consume_all(reader, trainer, run);
+  CacheTrainSummary summary;
+  CacheFile file;
+  file.cache = trainer.finish(&summary);
+  file.provenance = provenance(run, tool, arguments, reader);
+  run.stop_if_interrupted();
+  write_cache(arguments.output, file);
+  report(run, file.provenance, summary);
+}
+
+}  // namespace waylight

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "libguide/photon_trace.h"
+#include "tools/common/scene_arguments.h"
+
+namespace waylight {
+
+struct PhotonTraceArguments {
+  SceneArguments scene;
+  std::string output;
+  PhotonTraceOptions options;
+};
+
+void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArguments& arguments);
+
+}  // namespace waylight

@@ -1,0 +1,59 @@
+// render: the image, by path tracing with or without guiding.
+
+#include <CLI/CLI.hpp>
+
+#include "tools/render/render_tool.h"
+
+using namespace waylight;
+
+namespace {
+
+constexpr ToolInfo kTool = {
+    "render", "Renders a scene, guided by caches or not",
+    "SCENE -o out.exr [--mode bsdf|illumination|product] [--spp N | --time S | --error E]",
+    R"(Modes. bsdf: path tracing with next-event estimation. illumination: half of the directions come
+from the cache of where light arrives (--cache). product: from the product of that and the fitted BSDF
+(--cache and --brdf). All have the same mean; caches change the noise alone.
+
+The render ends at the first of --spp, --time and --error (relMSE, as estimated from the image's own
+variance); without any it takes 64 samples per pixel. Ctrl-C writes what there is.
+
+Channels of --aov: albedo, normal, depth, samples, variance (of each pixel's mean), path_length,
+guiding (share of scatterings with a guide), all.
+
+Examples:
+  render room.xml -o plain.exr --spp 256
+  render room.xml -o guided.exr --mode product --cache room.cache --brdf room.brdf --time 60)"};
+
+void declare_stopping(CLI::App& app, RenderOptions& options) {
+  app.add_option("--spp", options.spp, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
+  app.add_option("--time", options.time, "Seconds of rendering")->check(CLI::PositiveNumber);
+  app.add_option("--error", options.error, "Estimated relMSE to reach")->check(CLI::PositiveNumber);
+}
+
+void declare(CLI::App& app, RenderArguments& arguments) {
+  RenderOptions& options = arguments.options;
+  add_scene(app, arguments.scene);
+  as_output(app.add_option("-o,--output", arguments.output, "Image to write (.exr)"))->required();
+  as_output(app.add_option("--png", arguments.png, "The image as sRGB picture too"));
+  add_mode(app, options.mode);
+  as_input(app.add_option("--cache", arguments.cache, "Illumination cache"));
+  as_input(app.add_option("--brdf", arguments.brdf, "Fitted BSDFs"));
+  declare_stopping(app, options);
+  add_frame(app, arguments);
+  app.add_option("--seed", options.seed, "Seed of the random numbers");
+  app.add_option("--max-depth", options.max_depth, "Path edges; -1: no limit, -2: the scene's");
+  app.add_option("--rr-depth", options.rr_depth,
+                 "Path edges before Russian roulette; -1: the scene's");
+  app.add_option("--guiding-prob", options.guiding_prob, "Share of directions from the guide")
+      ->check(CLI::Range(0.0, 0.99));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  RenderArguments arguments;
+  return run_tool(
+      argc, argv, kTool, [&](CLI::App& app) { declare(app, arguments); },
+      [&](ToolRun& run) { render(run, kTool, arguments); });
+}

@@ -1,0 +1,93 @@
+#include "tools/render/render_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "libguide/base/error.h"
+
+namespace waylight {
+namespace {
+
+constexpr int kDefaultSpp = 64;
+
+const std::map<std::string, RenderMode>& modes() {
+  static const std::map<std::string, RenderMode> kModes = {
+      {"bsdf", RenderMode::bsdf},
+      {"illumination", RenderMode::illumination},
+      {"product", RenderMode::product}};
+  return kModes;
+}
+
+const std::map<std::string, bool AovSet::*>& aov_names() {
+  static const std::map<std::string, bool AovSet::*> kNames = {
+      {"albedo", &AovSet::albedo},        {"normal", &AovSet::normal},
+      {"depth", &AovSet::depth},          {"samples", &AovSet::sample_count},
+      {"variance", &AovSet::variance},    {"path_length", &AovSet::path_length},
+      {"guiding", &AovSet::guiding_share}};
+  return kNames;
+}
+
+void add_aov(const std::string& name, AovSet& set) {
+  const auto found = aov_names().find(name);
+  require(
+      found != aov_names().end() || name == "all",
+      "--aov {}: is none of albedo, normal, depth, samples, variance, path_length, guiding, all",
+      name);
+  for (const auto& [known, member] : aov_names())
+    if (name == "all" || name == known) set.*member = true;
+}
+
+void read_size(const std::string& text, RenderOptions& options) {
+  if (text.empty()) return;
+  int used = 0;
+  const bool read =
+      std::sscanf(text.c_str(), "%dx%d%n", &options.width, &options.height, &used) == 2;
+  require(read && size_t(used) == text.size() && options.width > 0 && options.height > 0,
+          "--size {}: write it as WIDTHxHEIGHT, for example 640x360", text);
+}
+
+void read_crop(const std::string& text, RenderOptions& options) {
+  if (text.empty()) return;
+  int used = 0;
+  const bool read = std::sscanf(text.c_str(), "%d,%d,%d,%d%n", &options.crop_x, &options.crop_y,
+                                &options.crop_width, &options.crop_height, &used) == 4;
+  require(read && size_t(used) == text.size() && options.crop_width > 0 && options.crop_height > 0,
+          "--crop {}: write it as X,Y,WIDTH,HEIGHT in pixels", text);
+}
+
+}  // namespace
+
+void add_mode(CLI::App& app, RenderMode& mode) {
+  app.add_option("--mode", mode, "What directions are sampled from")
+      ->type_name("bsdf|illumination|product")
+      ->transform(CLI::CheckedTransformer(modes()))
+      ->default_str("bsdf");
+}
+
+void add_frame(CLI::App& app, RenderArguments& frame) {
+  app.add_option("--size", frame.size, "Size of the image")->type_name("WxH");
+  app.add_option("--crop", frame.crop, "Render this window only, in pixels of the whole image")
+      ->type_name("X,Y,W,H");
+  app.add_option("--aov", frame.aovs, "More channels, separated by commas")
+      ->type_name("NAMES")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+RenderOptions complete_options(const RenderArguments& arguments) {
+  RenderOptions options = arguments.options;
+  read_size(arguments.size, options);
+  read_crop(arguments.crop, options);
+  for (const std::string& name : arguments.aovs) add_aov(name, options.aovs);
+  if (options.spp == 0 && options.time == 0 && options.error == 0) options.spp = kDefaultSpp;
+  options.validate();
+  return options;
+}
+
+const char* mode_name(RenderMode mode) {
+  for (const auto& [name, value] : modes())
+    if (value == mode) return name.c_str();
+  return "";
+}
+
+}  // namespace waylight

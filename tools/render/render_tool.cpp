@@ -1,0 +1,104 @@
+#include "tools/render/render_tool.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "formats/brdf_file.h"
+#include "formats/cache_file.h"
+#include "formats/image_io.h"
+#include "libguide/base/error.h"
+#include "tools/common/provenance_of.h"
+#include "tools/render/render_arguments.h"
+
+namespace waylight {
+namespace {
+
+// The caches that the mode asks for, checked against the scene. Others are not even opened.
+struct LoadedCaches {
+  LoadedCaches(const RenderArguments& arguments, const SceneDescription& scene) {
+    const RenderMode mode = arguments.options.mode;
+    const std::string scene_name = file_name(arguments.scene.path);
+    if (mode == RenderMode::bsdf) return;
+    require(!arguments.cache.empty(), "--mode {} needs --cache", mode_name(mode));
+    guide.emplace(arguments.cache);
+    require_same_scene(arguments.cache, guide->provenance(), scene_name, scene.hash,
+                       SceneParts::all);
+    parents.push_back(parent_of(arguments.cache));
+    if (mode != RenderMode::product) return;
+    require(!arguments.brdf.empty(), "--mode product needs --brdf");
+    brdf.emplace(read_brdf(arguments.brdf));
+    require_same_scene(arguments.brdf, brdf->provenance, scene_name, scene.hash,
+                       SceneParts::materials);
+    parents.push_back(parent_of(arguments.brdf));
+  }
+
+  RenderCaches caches() const {
+    return {brdf ? &brdf->cache : nullptr, guide ? guide->view() : GuideCacheView()};
+  }
+
+  std::optional<MappedCache> guide;
+  std::optional<BrdfFile> brdf;
+  std::vector<ParentFile> parents;
+};
+
+std::map<std::string, std::string> exr_attributes(const Provenance& p) {
+  std::map<std::string, std::string> attributes = {
+      {"waylight.tool", p.tool},
+      {"waylight.version", p.version},
+      {"waylight.command", p.command_line},
+      {"waylight.seed", std::to_string(p.seed)},
+      {"waylight.scene", p.scene_name},
+      {"waylight.scene_hash",
+       fmt::format("geometry {:016x} materials {:016x} emitters {:016x} media {:016x}",
+                   p.scene.geometry, p.scene.materials, p.scene.emitters, p.scene.media)}};
+  for (size_t i = 0; i < p.parents.size(); ++i)
+    attributes[fmt::format("waylight.parent{}", i + 1)] =
+        fmt::format("{} {:016x}", p.parents[i].name, p.parents[i].hash);
+  return attributes;
+}
+
+void report(const ToolRun& run, const Provenance& provenance, RenderMode mode,
+            const RenderSummary& s) {
+  run.print(fmt::format("{} x {} pixels, {:.1f} samples per pixel in {:.1f} s, {} rays/s", s.width,
+                        s.height, s.mean_spp, s.seconds,
+                        format_count(double(s.rays) / std::max(s.seconds, 1e-9))));
+  run.print(
+      fmt::format("estimated relMSE {:.4g}; {:.2f} edges per path; {:.0f} % of scatterings guided",
+                  s.estimated_relmse, s.mean_path_length, 100 * s.guiding_share));
+  nlohmann::ordered_json stats = stats_of(provenance);
+  stats.update({{"mode", mode_name(mode)},
+                {"seconds", s.seconds},
+                {"spp", s.mean_spp},
+                {"width", s.width},
+                {"height", s.height},
+                {"rays", s.rays},
+                {"mean_path_length", s.mean_path_length},
+                {"guiding_share", s.guiding_share},
+                {"estimated_relmse", s.estimated_relmse},
+                {"invalid_samples", s.invalid_samples},
+                {"interrupted", s.interrupted},
+                {"peak_memory_bytes", peak_memory_bytes()}});
+  run.write_stats(stats);
+}
+
+}  // namespace
+
+void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arguments) {
+  const RenderOptions options = complete_options(arguments);
+  SceneDescription description = load_scene(arguments.scene, run);
+  const LoadedCaches loaded(arguments, description);
+  Provenance provenance = provenance_of(run, tool, options.seed, arguments.scene, description.hash);
+  provenance.parents = loaded.parents;
+  const Scene scene(std::move(description));
+  warn_of_repairs(scene, run);
+  RenderSummary summary;
+  const Image image = render(scene, loaded.caches(), options, &summary, run.control);
+  if (summary.mean_spp < 1) run.stop_if_interrupted();  // a part of the pixels is no image
+  write_exr(arguments.output, image, exr_attributes(provenance));
+  if (!arguments.png.empty()) write_png(arguments.png, image);
+  report(run, provenance, options.mode, summary);
+}
+
+}  // namespace waylight

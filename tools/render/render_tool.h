@@ -1,0 +1,21 @@
+#pragma once
+
+#include "libguide/render.h"
+#include "tools/common/scene_arguments.h"
+
+namespace waylight {
+
+struct RenderArguments {
+  SceneArguments scene;
+  std::string output, png, cache, brdf;
+  std::string size, crop;         // WxH; X,Y,W,H
+  std::vector<std::string> aovs;  // names
+  RenderOptions options;
+};
+
+void add_mode(CLI::App& app, RenderMode& mode);         // --mode
+void add_frame(CLI::App& app, RenderArguments& frame);  // --size, --crop, --aov
+
+void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arguments);
+
+}  // namespace waylight
