@@ -95,7 +95,7 @@ $(OUT)/$(1)-%s.exr: $(SCENE) $(SCENE_INPUTS) $$(caches_$(1)) $(OUT)/.options/ren
 
 $(OUT)/$(1)-%s.csv: $(OUT)/$(1)-%s.exr $(REFERENCE) $(BIN)/image-compare
 	@rm -f $$@
-	$$(LAUNCH) $(BIN)/image-compare $$< $(REFERENCE) --stats $$(basename $$<).json \
+	$$(LAUNCH) $(BIN)/image-compare $$< $(REFERENCE) --render-stats $$(basename $$<).json \
 	  $$(foreach s,$$(preprocess_$(1)),--preprocess-stats $$(s)) \
 	  --label scene=$(NAME) --label method=$(1) --error-image $$(basename $$<)-error.png --csv $$@
 endef

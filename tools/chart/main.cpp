@@ -1,19 +1,30 @@
 // chart: error over time from the tables of image-compare.
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
-#include "libguide/base/error.h"
 #include "tools/chart/chart_tool.h"
+#include "tools/common/cli.h"
+
+using namespace waylight;
 
 namespace {
 
-void add_options(CLI::App& app, waylight::ChartOptions& options) {
-  app.add_option("tables", options.tables, "Tables that `image-compare --csv` wrote")->required();
-  app.add_option("-o,--output", options.output, "Chart to write (.svg)")->required();
+constexpr ToolInfo kTool = {
+    "chart", "Draws error over time, log-log, one line per method", "TABLES.csv... -o OUT.svg",
+    R"(Tables are those of `image-compare --csv`. Rows of one method and time (several seeds) become one
+point, their geometric mean, and a band from the smallest to the largest. The dashed line has slope -1:
+the error of an unbiased method falls along it.
+
+Example:
+  chart room.csv -o room.svg --title "Room" --preprocess)"};
+
+void declare(CLI::App& app, ChartOptions& options) {
+  as_input(app.add_option("TABLES", options.tables, "Tables that `image-compare --csv` wrote"))
+      ->required();
+  as_output(app.add_option("-o,--output", options.output, "Chart to write (.svg)"))->required();
   app.add_option("--title", options.title, "Title of the chart");
-  app.add_option("--x", options.x, "seconds or spp")->capture_default_str();
-  app.add_option("--y", options.y, "relmse, mse, relmse_trimmed or mape")->capture_default_str();
+  app.add_option("--x", options.x, "seconds or spp");
+  app.add_option("--y", options.y, "relmse, mse, relmse_trimmed or mape");
   app.add_flag("--preprocess", options.preprocess, "Add preprocess_seconds to the seconds");
   app.add_flag("--png", options.png, "Write a PNG of the same name too");
 }
@@ -21,17 +32,8 @@ void add_options(CLI::App& app, waylight::ChartOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Error over time, one line per method");
-  waylight::ChartOptions options;
-  add_options(app, options);
-  try {
-    app.parse(argc, argv);
-    waylight::chart(options);
-    return 0;
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "chart: {}\n", e.what());
-    return dynamic_cast<const waylight::Misuse*>(&e) ? 2 : 1;
-  }
+  ChartOptions options;
+  return run_tool(
+      argc, argv, kTool, [&](CLI::App& app) { declare(app, options); },
+      [&](ToolRun&) { chart(options); });
 }

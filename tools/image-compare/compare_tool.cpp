@@ -1,5 +1,7 @@
 #include "tools/image-compare/compare_tool.h"
 
+#include <nlohmann/json.hpp>
+
 #include "formats/image_io.h"
 #include "libguide/base/error.h"
 #include "libguide/image/picture.h"
@@ -107,13 +109,9 @@ void ImageCompareOptions::validate() const {
   require(crop.empty() || crop.size() == 4, "--crop wants x,y,width,height");
   require(tile_size >= 1 && tile_size <= 4096, "--tile {} is not in 1..4096", tile_size);
   require(variance_samples >= 1, "--z-samples {} is less than 1", variance_samples);
-  for (const std::string& input : {image, reference})
-    for (const std::string& output : {csv, error_image})
-      require(output != input, "\"{}\" is input and output", output);
 }
 
-void image_compare(const ImageCompareOptions& options,
-                   const std::function<void(const std::string&)>& warn) {
+void image_compare(const ToolRun& run, const ImageCompareOptions& options) {
   options.validate();
   const ImageLabels labels = collect_labels(options);
   const Image image = read_image(options.image), reference = read_image(options.reference);
@@ -126,10 +124,13 @@ void image_compare(const ImageCompareOptions& options,
     report.z =
         z_scores(x, ref, total_variance(options, image, reference, frame), options.tile_size);
   if (report.figures.non_finite > 0)
-    warn(fmt::format("{} pixels are not finite and left out", report.figures.non_finite));
+    run.control.warn(
+        fmt::format("{} pixels are not finite and left out", report.figures.non_finite));
   if (!options.error_image.empty()) write_error_image(options.error_image, x, ref);
   if (!options.csv.empty()) append_csv(options.csv, csv_row(labels, report.figures));
-  options.json ? print_json(labels, report) : print_table(report);
+  const nlohmann::ordered_json json = to_json(labels, report);
+  options.json ? run.print(json.dump(2)) : print_table(run, report);
+  run.write_stats(json);
 }
 
 }  // namespace waylight

@@ -1,10 +1,11 @@
 #pragma once
 // What the tool image-compare does, apart from its command line.
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "tools/common/cli.h"
 
 namespace waylight {
 
@@ -29,7 +30,6 @@ using ImageLabels = std::map<std::string, std::string>;
 ImageLabels collect_labels(const ImageCompareOptions& options);
 
 // Prints the figures on stdout, and writes the files asked for.
-void image_compare(const ImageCompareOptions& options,
-                   const std::function<void(const std::string&)>& warn);
+void image_compare(const ToolRun& run, const ImageCompareOptions& options);
 
 }  // namespace waylight

@@ -1,34 +1,50 @@
 // image-compare: how far an image is from its reference.
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
-#include "libguide/base/error.h"
+#include "tools/common/cli.h"
 #include "tools/image-compare/compare_tool.h"
+
+using namespace waylight;
 
 namespace {
 
-void add_options(CLI::App& app, waylight::ImageCompareOptions& options) {
-  app.add_option("image", options.image, "Image to judge")->required();
-  app.add_option("reference", options.reference, "What it should be")->required();
-  app.add_option("--csv", options.csv, "Append the figures as a row of this table");
-  app.add_option("--error-image", options.error_image,
-                 "Relative error in false colours (.png), with the difference's channels (.exr)");
-  app.add_option("--z", options.variances,
-                 "z-scores against this variance of the mean: a picture, or `self` for the "
-                 "channels variance.R, G, B of image and reference; several are added")
+constexpr ToolInfo kTool = {
+    "image-compare", "Says how far an image is from its reference",
+    "IMAGE REFERENCE [--csv TABLE] [--error-image PICTURE] [--z self|VARIANCE]",
+    R"(relMSE is the mean over pixels and channels of (x - ref)^2 / (ref^2 + 0.01); the trimmed figure
+leaves out the worst 0.1 % of the pixels. With --z, the distribution of z-scores per pixel and per tile
+tells noise from bias: `self` uses the variance channels of `render --aov variance`.
+
+Examples:
+  image-compare guided.exr reference.exr --error-image error.png
+  image-compare guided.exr plain.exr --z self
+  image-compare guided.exr reference.exr --render-stats guided.json --csv room.csv)"};
+
+void declare_labels(CLI::App& app, ImageCompareOptions& options) {
+  app.add_option("--label", options.labels,
+                 "scene=, method=, seconds=, preprocess_seconds= or spp= for the table")
+      ->allow_extra_args(false);
+  as_input(app.add_option("--render-stats", options.stats, "Labels from `render --stats`"));
+  as_input(app.add_option("--preprocess-stats", options.preprocess_stats,
+                          "Add the seconds of this stage's --stats to preprocess_seconds"))
+      ->allow_extra_args(false);
+}
+
+void declare(CLI::App& app, ImageCompareOptions& options) {
+  as_input(app.add_option("IMAGE", options.image, "Image to judge"))->required();
+  as_input(app.add_option("REFERENCE", options.reference, "What it should be"))->required();
+  as_output(app.add_option("--csv", options.csv, "Append the figures as a row of this table"));
+  as_output(
+      app.add_option("--error-image", options.error_image,
+                     "Relative error in false colours (.png), or with the differences (.exr)"));
+  app.add_option("--z", options.variances, "Variance of the mean: a picture, or `self`; repeatable")
       ->allow_extra_args(false);
   app.add_option("--z-samples", options.variance_samples,
                  "Variance pictures are of one sample; divide them by this number of samples");
   app.add_option("--tile", options.tile_size, "Side of the tiles that have z-scores, in pixels");
-  app.add_option("--label", options.labels,
-                 "scene=, method=, seconds=, preprocess_seconds= or spp= for the table")
-      ->allow_extra_args(false);
-  app.add_option("--stats", options.stats, "Take labels from what `render --stats` wrote");
-  app.add_option("--preprocess-stats", options.preprocess_stats,
-                 "Add the seconds of this stage's --stats to preprocess_seconds")
-      ->allow_extra_args(false);
-  app.add_option("--crop", options.crop, "Compare only x,y,width,height")
+  declare_labels(app, options);
+  app.add_option("--crop", options.crop, "Compare only X,Y,WIDTH,HEIGHT")
       ->delimiter(',')
       ->expected(4);
   app.add_flag("--resize-reference", options.resize_reference,
@@ -39,19 +55,8 @@ void add_options(CLI::App& app, waylight::ImageCompareOptions& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("How far an image is from its reference");
-  waylight::ImageCompareOptions options;
-  add_options(app, options);
-  try {
-    app.parse(argc, argv);
-    waylight::image_compare(options, [](const std::string& message) {
-      fmt::print(stderr, "image-compare: warning: {}\n", message);
-    });
-    return 0;
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? 0 : 2;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "image-compare: {}\n", e.what());
-    return dynamic_cast<const waylight::Misuse*>(&e) ? 2 : 1;
-  }
+  ImageCompareOptions options;
+  return run_tool(
+      argc, argv, kTool, [&](CLI::App& app) { declare(app, options); },
+      [&](ToolRun& run) { image_compare(run, options); });
 }

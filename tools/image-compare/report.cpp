@@ -25,18 +25,18 @@ nlohmann::ordered_json as_json(const ZDistribution& z) {
           {"unexplained", z.unexplained}};
 }
 
-void print_z_row(const char* what, const ZDistribution& z) {
+std::string z_row(const char* what, const ZDistribution& z) {
   const auto with_chance = [](uint64_t beyond, double expected) {
     return fmt::format("{} ({:.1f})", beyond, expected);
   };
-  fmt::print("{:<10}{:>10}{:>10.3f}{:>10.3f}{:>22}{:>22}{:>10.2f}{:>13}\n", what, z.count, z.mean,
-             z.stddev, with_chance(z.beyond2, z.expected2()), with_chance(z.beyond3, z.expected3()),
-             z.largest, z.unexplained);
+  return fmt::format("{:<10}{:>10}{:>10.3f}{:>10.3f}{:>22}{:>22}{:>10.2f}{:>13}", what, z.count,
+                     z.mean, z.stddev, with_chance(z.beyond2, z.expected2()),
+                     with_chance(z.beyond3, z.expected3()), z.largest, z.unexplained);
 }
 
 }  // namespace
 
-void print_json(const ImageLabels& labels, const ComparisonReport& report) {
+nlohmann::ordered_json to_json(const ImageLabels& labels, const ComparisonReport& report) {
   nlohmann::ordered_json json;
   for (const auto& [name, value] : labels)
     if (!value.empty()) json[name] = as_json(value);
@@ -52,23 +52,24 @@ void print_json(const ImageLabels& labels, const ComparisonReport& report) {
                {"mean_ratio", f.mean_ratio()}});
   if (report.z)
     json["z"] = {{"pixels", as_json(report.z->pixels)}, {"tiles", as_json(report.z->tiles)}};
-  fmt::print("{}\n", json.dump(2));
+  return json;
 }
 
-void print_table(const ComparisonReport& report) {
+void print_table(const ToolRun& run, const ComparisonReport& report) {
   const CompareFigures& f = report.figures;
-  fmt::print("{:<16}{:.6g}\n", "MSE", f.mse);
-  fmt::print("{:<16}{:.6g}\n", "relMSE", f.relmse);
-  fmt::print("{:<16}{:.6g}\n", "trimmed relMSE", f.relmse_trimmed);
-  fmt::print("{:<16}{:.4g} %\n", "MAPE", 100 * f.mape);
-  fmt::print("{:<16}{:.6g}\n", "mean", f.mean);
-  fmt::print("{:<16}{:.6g}\n", "reference mean", f.ref_mean);
-  fmt::print("{:<16}{:.6g}\n", "ratio of means", f.mean_ratio());
+  run.print(fmt::format("{:<16}{:.6g}", "MSE", f.mse));
+  run.print(fmt::format("{:<16}{:.6g}", "relMSE", f.relmse));
+  run.print(fmt::format("{:<16}{:.6g}", "trimmed relMSE", f.relmse_trimmed));
+  run.print(fmt::format("{:<16}{:.4g} %", "MAPE", 100 * f.mape));
+  run.print(fmt::format("{:<16}{:.6g}", "mean", f.mean));
+  run.print(fmt::format("{:<16}{:.6g}", "reference mean", f.ref_mean));
+  run.print(fmt::format("{:<16}{:.6g}", "ratio of means", f.mean_ratio()));
   if (!report.z) return;
-  fmt::print("\n{:<10}{:>10}{:>10}{:>10}{:>22}{:>22}{:>10}{:>13}\n", "z of", "scores", "mean",
-             "stddev", "|z|>2 (chance)", "|z|>3 (chance)", "largest", "unexplained");
-  print_z_row("pixels", report.z->pixels);
-  print_z_row("tiles", report.z->tiles);
+  run.print(fmt::format("\n{:<10}{:>10}{:>10}{:>10}{:>22}{:>22}{:>10}{:>13}", "z of", "scores",
+                        "mean", "stddev", "|z|>2 (chance)", "|z|>3 (chance)", "largest",
+                        "unexplained"));
+  run.print(z_row("pixels", report.z->pixels));
+  run.print(z_row("tiles", report.z->tiles));
 }
 
 }  // namespace waylight

@@ -1,6 +1,7 @@
 #pragma once
 // The figures of a comparison as text.
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include "libguide/image/compare.h"
@@ -14,8 +15,7 @@ struct ComparisonReport {
   std::optional<ZScores> z;
 };
 
-// Both print on stdout.
-void print_table(const ComparisonReport& report);
-void print_json(const ImageLabels& labels, const ComparisonReport& report);
+void print_table(const ToolRun& run, const ComparisonReport& report);
+nlohmann::ordered_json to_json(const ImageLabels& labels, const ComparisonReport& report);
 
 }  // namespace waylight
