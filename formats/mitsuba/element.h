@@ -1,6 +1,6 @@
 #pragma once
-// A scene file as a tree of elements, the same for both dialects: includes spliced, $names replaced,
-// old spellings brought to the new ones. Everything after this sees one form.
+// A scene file as a tree of elements, the same for both dialects: includes spliced, $names
+// replaced, old spellings brought to the new ones. Everything after this sees one form.
 
 #include <fmt/format.h>
 
@@ -19,7 +19,8 @@ struct Element {
   std::string type;  // of an object: the plugin, for example "roughconductor"
   std::string name;  // of a property, in snake_case: "to_world", "int_ior"
   std::string id;
-  std::map<std::string, std::string> attributes;  // the others: value, x, y, z, angle, filename, ...
+  std::map<std::string, std::string>
+      attributes;  // the others: value, x, y, z, angle, filename, ...
   std::string file;
   int line = 0;
   std::vector<Element> children;
@@ -47,7 +48,8 @@ Document parse_document(const std::string& path, const ImportOptions& options);
 template <typename... Args>
 [[noreturn]] void fail_at(const Element& element, fmt::format_string<Args...> format,
                           Args&&... args) {
-  throw Error(fmt::format("{}: {}", element.where(), fmt::format(format, std::forward<Args>(args)...)));
+  throw Error(
+      fmt::format("{}: {}", element.where(), fmt::format(format, std::forward<Args>(args)...)));
 }
 
 // The known name with the smallest edit distance, as a clause: "; did you mean \"diffuse\"?", or

@@ -16,6 +16,9 @@ class Properties {
 
   const Element& element() const { return element_; }
   bool has(const std::string& name);
+  // Tag of the property of that name: "float", "string", "rgb", "texture", "ref"; empty when it is
+  // not there. For properties that may be of several kinds.
+  std::string tag(const std::string& name);
 
   // All throw Error (file, line, element) for a value of the wrong kind, NaN or infinity.
   float number(const std::string& name, float otherwise);
@@ -33,6 +36,10 @@ class Properties {
   const Element* object(const std::string& name);
   // All nested objects of a tag, <ref>s followed, named or not, in file order.
   std::vector<const Element*> objects(const std::string& tag);
+
+  // Accepted without effect.
+  void ignore(const std::vector<std::string>& names);
+  void ignore_objects(const std::vector<std::string>& tags);
 
   // Throws Error for a property or nested object that no accessor has named, with the nearest known
   // name.
