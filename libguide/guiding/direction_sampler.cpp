@@ -60,9 +60,16 @@ bool DirectionSampler::same_side(const Vec3& wi, const Vec3& wi_local) const {
   return wi.dot(ng_) * wi_local.z() * ng_side_ > 0;
 }
 
-Color DirectionSampler::eval(const Vec3& wi) const {
+EvalPdf DirectionSampler::evaluate(const Vec3& wi) const {
   const Vec3 local = resolved_.frame.to_local(wi);
-  return same_side(wi, local) ? resolved_.bsdf.eval(wo_local_, local) : Color(Color::Zero());
+  if (!same_side(wi, local)) return {};
+  const EvalPdf e = resolved_.bsdf.evaluate(wo_local_, local);
+  return {e.value, density(e.pdf, wi)};
+}
+
+float DirectionSampler::density(float bsdf_pdf, const Vec3& wi) const {
+  const float guided = guiding_prob_ > 0 ? guiding_prob_ * guide_pdf(wi) : 0.0f;
+  return (1 - delta_prob_) * ((1 - guiding_prob_) * bsdf_pdf + guided);
 }
 
 std::optional<DirectionSample> DirectionSampler::sample(float u, float u_lobe,
@@ -84,37 +91,26 @@ std::optional<DirectionSample> DirectionSampler::sample_delta(float u) const {
 
 std::optional<DirectionSample> DirectionSampler::sample_smooth(float u, float u_lobe,
                                                                const Vec2& u2) const {
-  Vec3 wi;
-  float eta = 1;
-  if (u < guiding_prob_) {
-    const std::optional<Vec3> guided = sample_guide(u_lobe, u2);
-    if (!guided) return std::nullopt;
-    wi = *guided;
-  } else {
+  if (u >= guiding_prob_) {
     const std::optional<BsdfSample> s = resolved_.bsdf.sample(wo_local_, u_lobe, u2);
     if (!s) return std::nullopt;
-    wi = resolved_.frame.to_world(s->wi);
-    eta = s->eta;
+    return weighted(resolved_.frame.to_world(s->wi), s->wi, {s->weight * s->pdf, s->pdf}, s->eta);
   }
-  const Vec3 local = resolved_.frame.to_local(wi);
-  if (!same_side(wi, local)) return std::nullopt;
-  const Color value = resolved_.bsdf.eval(wo_local_, local);
-  const float bsdf_pdf = (1 - delta_prob_) * resolved_.bsdf.pdf(wo_local_, local);
-  const float density = guiding_prob_ > 0 ? (1 - guiding_prob_) * bsdf_pdf +
-                                                guiding_prob_ * (1 - delta_prob_) * guide_pdf(wi)
-                                          : bsdf_pdf;
-  if (!(density > 0) || is_black(value)) return std::nullopt;
-  return DirectionSample{wi,      value / density,
-                         density, false,
-                         eta,     bsdf_pdf > 0 ? Color(value / bsdf_pdf) : Color(Color::Ones())};
+  const std::optional<Vec3> wi = sample_guide(u_lobe, u2);
+  if (!wi) return std::nullopt;
+  const Vec3 local = resolved_.frame.to_local(*wi);
+  return weighted(*wi, local, resolved_.bsdf.evaluate(wo_local_, local), 1);
 }
 
-float DirectionSampler::pdf(const Vec3& wi) const {
-  const Vec3 local = resolved_.frame.to_local(wi);
-  if (!same_side(wi, local)) return 0;
-  const float bsdf_pdf = resolved_.bsdf.pdf(wo_local_, local);
-  if (guiding_prob_ <= 0) return (1 - delta_prob_) * bsdf_pdf;
-  return (1 - delta_prob_) * ((1 - guiding_prob_) * bsdf_pdf + guiding_prob_ * guide_pdf(wi));
+// bsdf: value and density of BSDF sampling for the direction.
+std::optional<DirectionSample> DirectionSampler::weighted(const Vec3& wi, const Vec3& local,
+                                                          const EvalPdf& bsdf, float eta) const {
+  if (!same_side(wi, local)) return std::nullopt;
+  const float pdf = density(bsdf.pdf, wi);
+  if (!(pdf > 0) || is_black(bsdf.value)) return std::nullopt;
+  const float bsdf_pdf = (1 - delta_prob_) * bsdf.pdf;
+  const Color bsdf_weight = bsdf_pdf > 0 ? Color(bsdf.value / bsdf_pdf) : Color(Color::Ones());
+  return DirectionSample{wi, bsdf.value / pdf, pdf, false, eta, bsdf_weight};
 }
 
 std::optional<Vec3> DirectionSampler::sample_guide(float u, const Vec2& u2) const {

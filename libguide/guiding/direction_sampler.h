@@ -33,9 +33,10 @@ class DirectionSampler {
   DirectionSampler& operator=(const DirectionSampler&) = delete;
 
   // f(wo, wi) |cos wi| of the smooth part; zero where geometric and shading side disagree.
-  Color eval(const Vec3& wi) const;
+  Color eval(const Vec3& wi) const { return evaluate(wi).value; }
   std::optional<DirectionSample> sample(float u, float u_lobe, const Vec2& u2) const;
-  float pdf(const Vec3& wi) const;
+  float pdf(const Vec3& wi) const { return evaluate(wi).pdf; }
+  EvalPdf evaluate(const Vec3& wi) const;  // eval and pdf for the price of one
 
   bool has_smooth() const { return has_smooth_; }
   bool guided() const { return guiding_prob_ > 0; }
@@ -47,6 +48,9 @@ class DirectionSampler {
   bool prepare_product(const GuidingCaches& caches, int material);
   std::optional<Vec3> sample_guide(float u, const Vec2& u2) const;
   float guide_pdf(const Vec3& wi) const;
+  float density(float bsdf_pdf, const Vec3& wi) const;
+  std::optional<DirectionSample> weighted(const Vec3& wi, const Vec3& local, const EvalPdf& bsdf,
+                                          float eta) const;
   std::optional<DirectionSample> sample_smooth(float u, float u_lobe, const Vec2& u2) const;
   std::optional<DirectionSample> sample_delta(float u) const;
   bool same_side(const Vec3& wi, const Vec3& wi_local) const;

@@ -120,14 +120,14 @@ void PathTracer::add_direct_light(State& state, const SurfacePoint& at,
   const float u = sampler.next();
   const std::optional<LightSample> light = scene_.sample_light(at.p, u, sampler.next_2d());
   if (!light || !(light->pdf > 0)) return;
-  const Color f = directions.eval(light->wi);
-  if (is_black(f)) return;
+  const EvalPdf f = directions.evaluate(light->wi);
+  if (is_black(f.value)) return;
   ++state.record.rays;
   const float visibility = scene_.visibility(at, light->wi, light->distance);
   if (visibility <= 0) return;
-  const float weight = light->is_delta ? 1.0f : mis_weight(light->pdf, directions.pdf(light->wi));
+  const float weight = light->is_delta ? 1.0f : mis_weight(light->pdf, f.pdf);
   state.record.radiance +=
-      state.throughput * f * light->radiance * (visibility * weight / light->pdf);
+      state.throughput * f.value * light->radiance * (visibility * weight / light->pdf);
 }
 
 // Roulette by the throughput that BSDF sampling would have had: a guided path's own throughput is
