@@ -36,6 +36,11 @@ void add_scene(CLI::App& app, SceneArguments& arguments) {
   add_import_options(app, arguments);
 }
 
+void add_ignore_media(CLI::App& app, SceneArguments& arguments) {
+  app.add_flag("--ignore-media", arguments.ignore_media, "Trace as if media were vacuum")
+      ->group("Scene");
+}
+
 void add_scene_option(CLI::App& app, SceneArguments& arguments, const char* name,
                       const char* description) {
   as_input(app.add_option(name, arguments.path, description))->group("Scene");
@@ -50,8 +55,18 @@ SceneDescription load_scene(const SceneArguments& arguments, const ToolRun& run)
   return import_mitsuba(arguments.path, options);
 }
 
-void warn_of_repairs(const Scene& scene, const ToolRun& run) {
-  for (const std::string& warning : scene.build_warnings()) run.control.warn(warning);
+std::unique_ptr<Scene> build_scene(SceneDescription description, const SceneArguments& arguments,
+                                   const ToolRun& run) {
+  if (!description.media.empty() && !arguments.ignore_media)
+    fail(
+        "\"{}\": has participating media, whose transport is not supported; --ignore-media leaves "
+        "them out",
+        arguments.path);
+  if (!description.media.empty())
+    run.control.warn(fmt::format("{} media are ignored", description.media.size()));
+  auto scene = std::make_unique<Scene>(std::move(description));
+  for (const std::string& warning : scene->build_warnings()) run.control.warn(warning);
+  return scene;
 }
 
 }  // namespace waylight

@@ -1,6 +1,7 @@
 #pragma once
 // The options of every tool that reads a scene.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,16 +14,21 @@ struct SceneArguments {
   std::string path;
   std::vector<std::string> defines;  // "name=value"
   bool lenient = false;
+  bool ignore_media = false;
 };
 
 // SCENE, -D name=value (repeatable), --lenient.
 void add_scene(CLI::App& app, SceneArguments& arguments);
+// --ignore-media, for the tools that trace rays.
+void add_ignore_media(CLI::App& app, SceneArguments& arguments);
 // The same with the scene as the value of an option that need not be given.
 void add_scene_option(CLI::App& app, SceneArguments& arguments, const char* name,
                       const char* description);
 
 SceneDescription load_scene(const SceneArguments& arguments, const ToolRun& run);
-// Says what building the scene repaired or left out.
-void warn_of_repairs(const Scene& scene, const ToolRun& run);
+// The scene for transport; warns of what was repaired or left out. Participating media have no
+// transport yet: they are an Error, or with --ignore-media a warning.
+std::unique_ptr<Scene> build_scene(SceneDescription description, const SceneArguments& arguments,
+                                   const ToolRun& run);
 
 }  // namespace waylight

@@ -25,6 +25,7 @@ Examples:
 void declare(CLI::App& app, PhotonTraceArguments& arguments) {
   PhotonTraceOptions& options = arguments.options;
   add_scene(app, arguments.scene);
+  add_ignore_media(app, arguments.scene);
   as_output(
       app.add_option("-o,--output", arguments.output, "Photon file; - is the standard output"))
       ->required();

@@ -38,8 +38,9 @@ void report(const ToolRun& run, const Provenance& provenance, const PhotonTraceS
 void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArguments& arguments) {
   const PhotonTraceOptions& options = arguments.options;
   options.validate();
-  const Scene scene(load_scene(arguments.scene, run));
-  warn_of_repairs(scene, run);
+  const std::unique_ptr<Scene> built =
+      build_scene(load_scene(arguments.scene, run), arguments.scene, run);
+  const Scene& scene = *built;
   const Provenance provenance =
       provenance_of(run, tool, options.seed, arguments.scene, scene.description().hash);
   PhotonWriter writer(arguments.output,

@@ -34,6 +34,7 @@ void declare_stopping(CLI::App& app, RenderOptions& options) {
 void declare(CLI::App& app, RenderArguments& arguments) {
   RenderOptions& options = arguments.options;
   add_scene(app, arguments.scene);
+  add_ignore_media(app, arguments.scene);
   as_output(app.add_option("-o,--output", arguments.output, "Image to write (.exr)"))->required();
   as_output(app.add_option("--png", arguments.png, "The image as sRGB picture too"));
   add_mode(app, options.mode);

@@ -91,10 +91,9 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
   const LoadedCaches loaded(arguments, description);
   Provenance provenance = provenance_of(run, tool, options.seed, arguments.scene, description.hash);
   provenance.parents = loaded.parents;
-  const Scene scene(std::move(description));
-  warn_of_repairs(scene, run);
+  const std::unique_ptr<Scene> scene = build_scene(std::move(description), arguments.scene, run);
   RenderSummary summary;
-  const Image image = render(scene, loaded.caches(), options, &summary, run.control);
+  const Image image = render(*scene, loaded.caches(), options, &summary, run.control);
   if (summary.mean_spp < 1) run.stop_if_interrupted();  // a part of the pixels is no image
   write_exr(arguments.output, image, exr_attributes(provenance));
   if (!arguments.png.empty()) write_png(arguments.png, image);
