@@ -27,13 +27,14 @@ struct MaterialFitSummary {
   int entries = 0;
   double mean_components = 0;
   double held_out_error = 0;  // mean over entries
-  double seconds = 0;
+  double seconds = 0;         // of one core, summed over the entries
   size_t bytes = 0;
+  std::string shares_with;  // an earlier material of the same BSDF whose entries serve this one
 };
 
 struct BrdfFitSummary {
   std::vector<MaterialFitSummary> materials;
-  std::vector<std::string> skipped;  // materials without density: delta and null
+  std::vector<std::string> skipped;  // "name (kind): why"; delta and null materials and the like
 };
 
 struct BrdfFitResult {
@@ -41,6 +42,12 @@ struct BrdfFitResult {
   BrdfFitSummary summary;
 };
 
+// Fits the front of every material that a shape shows, and the back where a two-sided material has
+// another one there. Anisotropic lobes are fitted to their mean over all azimuths of wo, textured
+// ones at mean parameters; both are warned of. Left out are delta and null materials, and those
+// with rough transmission: the guides stand over one hemisphere. A stopped run keeps the materials
+// that were complete. The result depends neither on the number of threads nor on the other
+// materials of the scene.
 BrdfFitResult fit_brdfs(const SceneDescription& scene, const BrdfFitOptions& options,
                         const RunControl& control);
 

@@ -92,7 +92,7 @@ class Renderer {
         crop_(sensor_.film = film_of(sensor_.film, options)),
         camera_(sensor_),
         filter_(crop_),
-        guiding_(caches.brdf, caches.guide, scene.description().materials.size()),
+        guiding_(caches.brdf, caches.guide, scene.description().materials),
         tracer_(scene, guiding_, tracer_options(scene, options)),
         film_(crop_.crop_width, crop_.crop_height) {}
 

@@ -39,7 +39,8 @@ void DirectionSampler::prepare_guide(const GuidingCaches& caches, DirectionGuide
 // False when the fitted BSDF and the light do not overlap: BSDF sampling is left alone then.
 // A material without fit keeps the light's mixture as its guide.
 bool DirectionSampler::prepare_product(const GuidingCaches& caches, int material) {
-  const std::span<const GaussianComponent> lobes = caches.brdf_lobes(material, wo_local_.z());
+  const std::span<const GaussianComponent> lobes =
+      caches.brdf_lobes(material, ng_side_ < 0, wo_local_.z());
   if (lobes.empty()) return true;
   // The fit's frame: z the shading normal, x the horizontal part of wo.
   const Frame& shading = resolved_.frame;

@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 // Rank of each folder of libguide; a file may include its own rank and those below. Folders of
 // equal rank do not know each other.
 const std::map<std::string, int> kRanks = {
-    {"base", 0},   {"math", 0},    {"directional", 3}, {"spatial", 3}, {"image", 3},
-    {"records", 2}, {"bsdf", 5},   {"medium", 5},      {"scene", 6},   {"cache", 6},
-    {"guiding", 8}, {"transport", 9}, {"", 10}};  // "": the stage headers
+    {"base", 0},    {"math", 0},    {"directional", 3}, {"spatial", 3}, {"image", 3},
+    {"records", 2}, {"bsdf", 5},    {"medium", 5},      {"scene", 6},   {"cache", 6},
+    {"fit", 8},     {"guiding", 8}, {"transport", 9},   {"", 10}};  // "": the stage headers
 
 std::string folder_of(const fs::path& relative) {
   return relative.has_parent_path() ? relative.begin()->string() : "";

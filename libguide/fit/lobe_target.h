@@ -1,0 +1,53 @@
+#pragma once
+// What a mixture is fitted to: f of one wo, without the cosine, as a function of wi.
+
+#include <optional>
+
+#include "libguide/base/sampler.h"
+#include "libguide/bsdf/bsdf.h"
+#include "libguide/math/warp.h"
+
+namespace waylight {
+
+// Directions are in the fit's frame: z the shading normal, x the horizontal part of wo. The azimuth
+// of wo in the shading frame matters for anisotropic lobes only.
+class LobeTarget {
+ public:
+  LobeTarget(const Bsdf& bsdf, float theta, float azimuth)
+      : bsdf_(bsdf), cosine_(std::cos(azimuth)), sine_(std::sin(azimuth)) {
+    wo_ = rotated({std::sin(theta), 0, std::cos(theta)});
+  }
+
+  struct Value {
+    float f = 0;    // luminance of f, 1/sr; zero below the horizon
+    float pdf = 0;  // with which the BSDF's own sampler makes the direction, per steradian
+  };
+  Value evaluate(const Vec3& wi) const {
+    if (!(wi.z() > 0)) return {};
+    const EvalPdf e = bsdf_.evaluate(wo_, rotated(wi));
+    return {luminance(e.value) / wi.z(), e.pdf};
+  }
+  // By the BSDF's own sampler.
+  std::optional<Vec3> sample(float u, const Vec2& u2) const {
+    const std::optional<BsdfSample> s = bsdf_.sample(wo_, u, u2);
+    if (!s || !(s->wi.z() > 0)) return std::nullopt;
+    return Vec3(cosine_ * s->wi.x() + sine_ * s->wi.y(), cosine_ * s->wi.y() - sine_ * s->wi.x(),
+                s->wi.z());
+  }
+
+ private:
+  Vec3 rotated(const Vec3& w) const {
+    return {cosine_ * w.x() - sine_ * w.y(), sine_ * w.x() + cosine_ * w.y(), w.z()};
+  }
+
+  const Bsdf& bsdf_;
+  float cosine_, sine_;
+  Vec3 wo_;
+};
+
+inline constexpr float kHemispherePdf = 0.5f * kInvPi;
+
+// Uniform over the upper hemisphere.
+inline Vec3 square_to_hemisphere(const Vec2& u) { return disk_to_direction(square_to_disk(u)); }
+
+}  // namespace waylight
