@@ -16,6 +16,8 @@ struct ImportContext {
   SceneDescription& scene;
   std::unordered_map<const Element*, int> materials, media;  // already imported, by identity
   std::map<std::string, std::shared_ptr<const Bitmap>> bitmaps;  // by path and colour space
+  std::unordered_map<const Element*, uint32_t> groups;            // <shape type="shapegroup">
+  int black_material = kNone;  // of emitters without BSDF, made when first needed
   int null_material = kNone, grey_material = kNone;  // made when first needed
 
   void warn(const std::string& message) const {
@@ -24,6 +26,9 @@ struct ImportContext {
 };
 
 // textures.cpp
+// Shapes carry Mitsuba's texture coordinates, whose v = 0 is the TOP row of a bitmap; to_uv acts on
+// those. A BitmapTexture (v = 0 at the bottom) therefore ends with v -> 1 - v after to_uv; what has
+// no picture (checkerboard) does not.
 Texture import_texture(ImportContext& context, const Element& element);
 // A property that is a texture, a colour or a number.
 Texture texture_property(ImportContext& context, Properties& properties, const std::string& name,

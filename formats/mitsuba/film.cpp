@@ -1,0 +1,91 @@
+#include "formats/mitsuba/film.h"
+
+namespace waylight::mitsuba {
+namespace {
+
+constexpr int kMaxFilmSize = 1 << 16;
+
+// What a film does with the finished picture; here that is for who writes the image.
+const std::vector<std::string> kOutputOptions = {
+    "attach_log",   "banner",       "burn",  "component_format", "compensate",
+    "exposure",     "file_format",  "gamma", "filename",         "high_quality_edges",
+    "key",          "pixel_format", "label", "sample_border",    "tonemap_method",
+    "channel_names"};
+
+const std::vector<std::string> kFilterTypes = {"box",      "tent",       "gaussian",
+                                               "mitchell", "catmullrom", "lanczos"};
+
+void import_filter(ImportContext& context, const Element& element, FilmDescription& film) {
+  Properties properties(context.document, element);
+  film.filter_radius = properties.number("radius", 0);
+  if (film.filter_radius < 0) fail_at(element, "its radius must not be negative");
+  if (element.type == "box") {
+    film.filter = FilterType::box;
+  } else if (element.type == "tent") {
+    film.filter = FilterType::tent;
+  } else if (element.type == "gaussian") {
+    film.filter = FilterType::gaussian;
+    film.filter_stddev = properties.number("stddev", 0.5f);
+    if (!(film.filter_stddev > 0)) fail_at(element, "its stddev must be above 0");
+  } else if (element.type == "mitchell") {
+    film.filter = FilterType::mitchell;
+    // B and C of [Mitchell, Netravali 1988]; Mitsuba 2 and 3 call them A and B.
+    const bool old = context.document.old_dialect;
+    film.filter_b = properties.number(old ? "b" : "A", 1.0f / 3);
+    film.filter_c = properties.number(old ? "c" : "B", 1.0f / 3);
+  } else {
+    fail_at(element, "unknown filter{}", did_you_mean(element.type, kFilterTypes));
+  }
+  properties.finish();
+}
+
+// Catmull-Rom is the member B = 0, C = 1/2 of the Mitchell family; Lanczos is near to it.
+bool replace_filter(ImportContext& context, const Element& element, FilmDescription& film) {
+  if (element.type != "catmullrom" && element.type != "lanczos") return false;
+  if (!context.options.lenient)
+    fail_at(element, "is not implemented; use mitchell, or --lenient to have it replaced");
+  context.warn(fmt::format("{}: replaced by mitchell with B = 0, C = 1/2", element.where()));
+  film.filter = FilterType::mitchell;
+  film.filter_b = 0;
+  film.filter_c = 0.5f;
+  return true;
+}
+
+int pixels(const Element& film, Properties& properties, const std::string& name, int otherwise,
+           int least) {
+  const int value = properties.integer(name, otherwise);
+  if (value < least || value > kMaxFilmSize)
+    fail_at(film, "its {} is {}, from {} to {} is possible", name, value, least, kMaxFilmSize);
+  return value;
+}
+
+void import_crop(const Element& element, Properties& properties, FilmDescription& film) {
+  film.crop_x = pixels(element, properties, "crop_offset_x", 0, 0);
+  film.crop_y = pixels(element, properties, "crop_offset_y", 0, 0);
+  const int width = film.width - film.crop_x, height = film.height - film.crop_y;
+  film.crop_width = pixels(element, properties, "crop_width", std::max(width, 1), 1);
+  film.crop_height = pixels(element, properties, "crop_height", std::max(height, 1), 1);
+  if (film.crop_width > width || film.crop_height > height)
+    fail_at(element, "its crop window reaches beyond its {} x {} pixels", film.width, film.height);
+  if (film.crop_width == film.width && film.crop_height == film.height)
+    film.crop_width = film.crop_height = 0;
+}
+
+}  // namespace
+
+FilmDescription import_film(ImportContext& context, const Element& element) {
+  Properties properties(context.document, element);
+  if (element.type != "hdrfilm" && element.type != "ldrfilm")
+    fail_at(element, "unknown film{}", did_you_mean(element.type, {"hdrfilm", "ldrfilm"}));
+  FilmDescription film;
+  film.width = pixels(element, properties, "width", film.width, 1);
+  film.height = pixels(element, properties, "height", film.height, 1);
+  import_crop(element, properties, film);
+  for (const Element* filter : properties.objects("rfilter"))
+    if (!replace_filter(context, *filter, film)) import_filter(context, *filter, film);
+  properties.ignore(kOutputOptions);
+  properties.finish();
+  return film;
+}
+
+}  // namespace waylight::mitsuba

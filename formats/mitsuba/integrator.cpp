@@ -1,0 +1,48 @@
+// <integrator>: only what can serve as a default of `render`.
+
+#include <algorithm>
+
+#include "formats/mitsuba/import_context.h"
+
+namespace waylight::mitsuba {
+namespace {
+
+// Path tracers; all of them estimate the same image.
+const std::vector<std::string> kPathTracers = {"path",       "volpath", "volpath_simple",
+                                               "volpathmis", "bdpt",    "direct"};
+// Hold another integrator and add channels or a stopping rule to it.
+const std::vector<std::string> kWrappers = {"moment", "aov", "adaptive", "irrcache"};
+
+bool is_one_of(const std::string& type, const std::vector<std::string>& types) {
+  return std::find(types.begin(), types.end(), type) != types.end();
+}
+
+void check(const Element& integrator, const IntegratorDefaults& defaults) {
+  if (defaults.max_depth < -1 || defaults.max_depth == 0)
+    fail_at(integrator, "its max_depth must be at least 1, or -1 for no limit");
+  if (defaults.rr_depth < 1) fail_at(integrator, "its rr_depth must be at least 1");
+}
+
+}  // namespace
+
+void import_integrator(ImportContext& context, const Element& integrator) {
+  Properties properties(context.document, integrator);
+  const std::vector<const Element*> nested = properties.objects("integrator");
+  if (is_one_of(integrator.type, kWrappers)) {
+    if (nested.empty()) fail_at(integrator, "needs a nested <integrator>");
+    return import_integrator(context, *nested.front());
+  }
+  IntegratorDefaults& defaults = context.scene.integrator;
+  defaults.max_depth = integrator.type == "direct" ? 2 : properties.integer("max_depth", -1);
+  defaults.rr_depth = properties.integer("rr_depth", defaults.rr_depth);
+  defaults.hide_emitters = properties.boolean("hide_emitters", false);
+  check(integrator, defaults);
+  if (!is_one_of(integrator.type, kPathTracers))
+    return context.warn(fmt::format("{}: only its depths are used", integrator.where()));
+  properties.ignore({"strict_normals", "sample_num", "delta", "light_image", "sample_direct",
+                     "use_mis", "shading_samples", "emitter_samples", "bsdf_samples",
+                     "samples_per_pass", "timeout", "block_size"});
+  properties.finish();
+}
+
+}  // namespace waylight::mitsuba

@@ -1,0 +1,101 @@
+#include "formats/mitsuba/film.h"
+#include "formats/mitsuba/parse_value.h"
+
+namespace waylight::mitsuba {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+// Diagonal of 35 mm film in mm, to which focal lengths refer.
+const double kFilmDiagonal = std::hypot(36.0, 24.0);
+
+// From half an angle of view across `axis` to that across the width.
+double half_fov_x(const Element& sensor, const std::string& axis, double half, double aspect) {
+  const double t = std::tan(half);
+  if (axis == "x" || (axis == "smaller" && aspect <= 1) || (axis == "larger" && aspect > 1))
+    return half;
+  if (axis == "y" || axis == "smaller" || axis == "larger") return std::atan(t * aspect);
+  if (axis == "diagonal") return std::atan(t / std::sqrt(1 + 1 / (aspect * aspect)));
+  fail_at(sensor, "unknown fov_axis \"{}\"{}", axis,
+          did_you_mean(axis, {"x", "y", "diagonal", "smaller", "larger"}));
+}
+
+// "50mm", or a number of mm.
+double focal_length(const Element& sensor, Properties& properties) {
+  double length = 50;
+  if (properties.tag("focal_length") == "string") {
+    std::string text = properties.text("focal_length", "");
+    if (text.ends_with("mm")) text.resize(text.size() - 2);
+    length = parse_number(sensor, text);
+  } else {
+    length = properties.number("focal_length", 50);
+  }
+  if (!(length > 0)) fail_at(sensor, "its focal_length must be above 0");
+  return length;
+}
+
+float import_fov(const Element& sensor, Properties& properties, double aspect) {
+  const std::string axis = properties.text("fov_axis", "x");
+  if (properties.has("fov") && properties.has("focal_length"))
+    fail_at(sensor, "has both fov and focal_length");
+  if (!properties.has("fov")) {
+    const double half = std::atan(kFilmDiagonal / (2 * focal_length(sensor, properties)));
+    return static_cast<float>(2 * half_fov_x(sensor, "diagonal", half, aspect));
+  }
+  const double degrees = properties.number("fov", 0);
+  if (!(degrees > 0 && degrees < 180)) fail_at(sensor, "its fov must lie between 0 and 180");
+  return static_cast<float>(2 * half_fov_x(sensor, axis, 0.5 * degrees * kDegree, aspect));
+}
+
+// Mitsuba refuses a scale. For directions a uniform one is without effect, so it is taken out.
+Mat4 without_scale(const ImportContext& context, const Element& sensor, Mat4 to_world) {
+  const Mat3 linear = to_world.topLeftCorner<3, 3>();
+  const Vec3 lengths = linear.colwise().norm();
+  const Mat3 rotation = linear * lengths.cwiseInverse().asDiagonal();
+  const Mat3 rest = rotation.transpose() * rotation - Mat3::Identity();
+  if (!(lengths.maxCoeff() <= 1.001f * lengths.minCoeff() && rest.cwiseAbs().maxCoeff() < 1e-3f))
+    fail_at(sensor, "its to_world must be a rotation and a translation");
+  if (std::abs(lengths.mean() - 1) > 1e-3f)
+    context.warn(fmt::format("{}: the scale of its to_world is left out", sensor.where()));
+  to_world.topLeftCorner<3, 3>() = rotation;
+  return to_world;
+}
+
+void import_lens(const Element& sensor, Properties& properties, SensorDescription& result) {
+  if (sensor.type != "thinlens") return properties.ignore({"focus_distance"});
+  for (const char* name : {"aperture_radius", "focus_distance"})
+    if (!properties.has(name)) fail_at(sensor, "needs {}", name);
+  result.aperture_radius = properties.number("aperture_radius", 0);
+  result.focus_distance = properties.number("focus_distance", 1);
+  if (!(result.aperture_radius >= 0 && result.focus_distance > 0))
+    fail_at(sensor, "needs an aperture_radius of at least 0 and a focus_distance above 0");
+}
+
+// `shift` is another name of the same offset.
+void import_principal_point(Properties& properties, SensorDescription& result) {
+  const Vec3 shift = properties.vector("shift", Vec3::Zero());
+  result.principal_x =
+      properties.number("principal_point_offset_x", properties.number("shift_x", shift.x()));
+  result.principal_y =
+      properties.number("principal_point_offset_y", properties.number("shift_y", shift.y()));
+}
+
+}  // namespace
+
+void import_sensor(ImportContext& context, const Element& sensor) {
+  if (sensor.type != "perspective" && sensor.type != "thinlens")
+    fail_at(sensor, "unknown sensor{}", did_you_mean(sensor.type, {"perspective", "thinlens"}));
+  Properties properties(context.document, sensor);
+  SensorDescription& result = context.scene.sensor;
+  for (const Element* film : properties.objects("film")) result.film = import_film(context, *film);
+  result.fov_x = import_fov(sensor, properties, double(result.film.width) / result.film.height);
+  result.to_world = without_scale(context, sensor, properties.transform("to_world"));
+  import_lens(sensor, properties, result);
+  import_principal_point(properties, result);
+  for (const Element* medium : properties.objects("medium"))
+    result.medium = import_medium(context, *medium);
+  properties.ignore({"near_clip", "far_clip", "shutter_open", "shutter_close"});
+  properties.ignore_objects({"sampler"});
+  properties.finish();
+}
+
+}  // namespace waylight::mitsuba
