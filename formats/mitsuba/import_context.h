@@ -26,9 +26,8 @@ struct ImportContext {
 };
 
 // textures.cpp
-// Shapes carry Mitsuba's texture coordinates, whose v = 0 is the TOP row of a bitmap; to_uv acts on
-// those. A BitmapTexture (v = 0 at the bottom) therefore ends with v -> 1 - v after to_uv; what has
-// no picture (checkerboard) does not.
+// Mitsuba's v = 0 is the top row of a bitmap, here it is the bottom one: shapes carry 1 - v, and
+// to_uv, which acts on Mitsuba's, is put between two flips.
 Texture import_texture(ImportContext& context, const Element& element);
 // A property that is a texture, a colour or a number.
 Texture texture_property(ImportContext& context, Properties& properties, const std::string& name,

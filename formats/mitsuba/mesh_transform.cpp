@@ -30,6 +30,10 @@ Eigen::Vector3d face_normal(const TriangleMesh& mesh, const std::array<uint32_t,
 
 }  // namespace
 
+void flip_v(TriangleMesh& mesh) {
+  for (Vec2& uv : mesh.uvs) uv.y() = 1 - uv.y();
+}
+
 void transform_mesh(TriangleMesh& mesh, const Mat4& to_world) {
   const Matrix3 linear = to_world.topLeftCorner<3, 3>().cast<double>();
   const Eigen::Vector3d translation = to_world.topRightCorner<3, 1>().cast<double>();

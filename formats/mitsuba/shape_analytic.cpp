@@ -17,7 +17,9 @@ void add_quad(TriangleMesh& mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d
   mesh.triangles.push_back({a, c, d});
 }
 
+// From the unit mesh with Mitsuba's texture coordinates.
 TriangleMesh placed(TriangleMesh mesh, Properties& properties) {
+  flip_v(mesh);
   transform_mesh(mesh, properties.transform("to_world"));
   return mesh;
 }
@@ -127,11 +129,13 @@ Geometry import_sphere(Properties& properties) {
   const double scale = similarity_scale(linear);
   if (!(scale > 0)) {
     TriangleMesh mesh = tessellated_sphere();
+    flip_v(mesh);
     transform_mesh(mesh, to_world);
     return mesh;
   }
-  return Sphere{to_world.topRightCorner<3, 1>(), static_cast<float>(scale),
-                (linear / scale).cast<float>()};
+  // Sphere counts v from its +z as Mitsuba does; a frame with z reversed makes that 1 - v.
+  const Eigen::Matrix3d frame = linear / scale * Eigen::DiagonalMatrix<double, 3>(1, 1, -1);
+  return Sphere{to_world.topRightCorner<3, 1>(), static_cast<float>(scale), frame.cast<float>()};
 }
 
 }  // namespace waylight::mitsuba

@@ -1,7 +1,7 @@
 #pragma once
 // Geometry of the single kinds of shapes, with to_world applied.
 //
-// Texture coordinates are Mitsuba's: v = 0 is the top row of a bitmap (see import_context.h).
+// Texture coordinates are 1 - v of Mitsuba's: here v = 0 is the bottom row of a bitmap.
 
 #include "formats/mitsuba/import_context.h"
 
@@ -17,6 +17,8 @@ TriangleMesh import_disk(Properties& properties);
 TriangleMesh import_cylinder(Properties& properties);
 // A Sphere where to_world is a similarity, else a fine mesh.
 Geometry import_sphere(Properties& properties);
+
+void flip_v(TriangleMesh& mesh);  // v -> 1 - v
 
 // Normals by the inverse transpose. Under a reflection triangles are wound the other way, so that
 // what was outside stays outside.

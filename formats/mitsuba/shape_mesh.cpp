@@ -45,10 +45,9 @@ TriangleMesh import_mesh_file(ImportContext& context, Properties& properties) {
   MeshRepairs repairs;
   TriangleMesh mesh = read_mesh(context.document, properties, repairs);
   warn_of_repairs(context, shape, repairs);
-  // Files have v = 0 at the bottom row mostly; Mitsuba has it at the top and by default turns over
-  // that of obj alone, in both dialects.
-  if (properties.boolean("flip_tex_coords", shape.type == "obj"))
-    for (Vec2& uv : mesh.uvs) uv.y() = 1 - uv.y();
+  // Mitsuba takes the v of a file for its own, but for obj files turns it over first by default, in
+  // both dialects, since most of them have v = 0 at the bottom: which is ours.
+  if (!properties.boolean("flip_tex_coords", shape.type == "obj")) flip_v(mesh);
   if (properties.boolean("face_normals", false))
     mesh.normals.clear();
   else if (mesh.normals.empty())

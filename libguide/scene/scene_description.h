@@ -27,7 +27,7 @@ struct TriangleMesh {
 struct Sphere {
   Vec3 center = Vec3::Zero();
   float radius = 1;
-  Mat3 frame = Mat3::Identity();  // rotation from the sphere's own axes to the world
+  Mat3 frame = Mat3::Identity();  // orthogonal: from the sphere's own axes to the world
 };
 
 struct Shape {
