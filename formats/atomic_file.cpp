@@ -48,23 +48,29 @@ void check_writable(const std::string& path) {
     fail("\"{}\": cannot write to \"{}\" (permissions)", path, target);
 }
 
+AtomicFile::AtomicFile(const std::string& path) : path_(path), temporary_(path) {
+  check_writable(path);
+  if (!is_special(path)) temporary_ += fmt::format(".tmp{}", ::getpid());
+}
+
+AtomicFile::~AtomicFile() {
+  if (!done_ && temporary_ != path_) std::remove(temporary_.c_str());
+}
+
+void AtomicFile::commit() {
+  if (temporary_ != path_) {
+    flush_to_disk(temporary_);
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
+      fail("\"{}\": cannot write: {}", path_, std::strerror(errno));
+  }
+  done_ = true;
+}
+
 void write_atomically(const std::string& path,
                       const std::function<void(const std::string&)>& write) {
-  check_writable(path);
-  if (is_special(path)) return write(path);
-  const std::string temporary = fmt::format("{}.tmp{}", path, ::getpid());
-  try {
-    write(temporary);
-    flush_to_disk(temporary);
-  } catch (...) {
-    std::remove(temporary.c_str());
-    throw;
-  }
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) {
-    const int error = errno;
-    std::remove(temporary.c_str());
-    fail("\"{}\": cannot write: {}", path, std::strerror(error));
-  }
+  AtomicFile file(path);
+  write(file.temporary());
+  file.commit();
 }
 
 void write_text_atomically(const std::string& path, const std::string& text) {

@@ -1,24 +1,24 @@
 #pragma once
-// The hash of everything that files say of each other: XXH3, 64 bits, streaming.
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include <cstdint>
+#include <memory>
 #include <string_view>
 
 namespace waylight {
 
+// The hash of everything that files say of each other: XXH3, 64 bits, streaming.
 class ContentHash {
  public:
-  ContentHash() { XXH3_64bits_reset(&state_); }
+  ContentHash();
+  ~ContentHash();
 
-  void add(const void* data, size_t bytes) { XXH3_64bits_update(&state_, data, bytes); }
+  void add(const void* data, size_t bytes);
   void add(std::string_view bytes) { add(bytes.data(), bytes.size()); }
-  uint64_t value() const { return XXH3_64bits_digest(&state_); }
+  uint64_t value() const;
 
  private:
-  XXH3_state_t state_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace waylight

@@ -1,7 +1,8 @@
 #pragma once
 // *.photons: a stream of size-prefixed FlatBuffers chunks, so that it can be piped. Schema
 // photons.fbs, identifier "WPHO". The first chunk is the header, the last one says how many photons
-// went before it: a stream without it is truncated.
+// went before it: a stream without it is truncated. Directions and normals lose what is beyond 5e-5
+// radians.
 
 #include <memory>
 #include <span>
@@ -24,7 +25,9 @@ class PhotonWriter {
   PhotonWriter(const std::string& path, const PhotonHeader& header);
   ~PhotonWriter();  // removes what finish() did not complete
   void write(std::span<const Photon> photons);
+  // counts.stored must be the number of photons written.
   void finish(const PhotonCounts& counts);
+  uint64_t content_hash() const;  // of all bytes written so far
 
  private:
   struct Impl;
@@ -38,7 +41,7 @@ class PhotonReader {
   ~PhotonReader();
   const PhotonHeader& header() const;
   // The next photons, or false at the end. Throws Error for a chunk that is damaged, out of place
-  // or missing. Photons with values that make no sense are an Error too.
+  // or missing, and for photons whose position or power is not finite or whose power is negative.
   bool read(std::vector<Photon>* photons);
   const PhotonCounts& counts() const;  // after read() said false
   uint64_t content_hash() const;       // of all bytes of the stream, after read() said false

@@ -1,0 +1,160 @@
+#include "formats/cache_file.h"
+
+#include "formats/cache_generated.h"
+#include "formats/file_bytes.h"
+#include "formats/file_map.h"
+#include "formats/flat_file.h"
+#include "formats/flat_records.h"
+#include "libguide/cache/training_check.h"
+
+namespace waylight {
+
+FLAT_RECORD(CacheNode, fbs::CacheNode);
+FLAT_RECORD(CacheCell, fbs::CacheCell);
+FLAT_RECORD(ComponentStatistics, fbs::ComponentStatistics);
+FLAT_RECORD(CellTraining, fbs::CellTraining);
+static_assert(offsetof(CacheCell, irradiance) == 12 && offsetof(CacheCell, component_count) == 32);
+static_assert(offsetof(CellTraining, flux) == 64 && offsetof(CellTraining, weight_sum) == 96);
+
+namespace {
+
+constexpr uint32_t kFormatVersion = 1;
+
+size_t bytes_needed(const CacheFile& file) {
+  const GuideCache& c = file.cache;
+  return provenance_bytes(file.provenance) + c.nodes.size() * sizeof(CacheNode) +
+         c.cells.size() * sizeof(CacheCell) + c.components.size() * sizeof(GaussianComponent) +
+         c.statistics.size() * sizeof(ComponentStatistics) +
+         c.training.size() * sizeof(CellTraining);
+}
+
+// What is wrong with the training part; check() of the view comes first.
+std::string check_training_part(const GuideCache& cache) {
+  if (cache.statistics.empty() && cache.training.empty()) return {};
+  if (cache.statistics.size() != cache.components.size() ||
+      cache.training.size() != cache.cells.size())
+    return "the training statistics do not belong to the cells";
+  return check_training(cache);
+}
+
+std::string check_all(const GuideCache& cache) {
+  const std::string fault = check(GuideCacheView(cache));
+  return fault.empty() ? check_training_part(cache) : fault;
+}
+
+// Field by field: a copy of the record would bring the undefined bytes of its padding along.
+fbs::CellTraining to_flat(const CellTraining& t) {
+  return {waylight::to_flat(t.position_mean),
+          waylight::to_flat(t.position_m2),
+          waylight::to_flat(t.position_cross),
+          waylight::to_flat(t.normal_mean),
+          waylight::to_flat(t.normal_m2),
+          t.count,
+          t.flux,
+          t.born,
+          t.inherited_irradiance,
+          t.step,
+          t.samples,
+          t.weight_sum,
+          t.weight_sum2};
+}
+
+auto add_training(flatbuffers::FlatBufferBuilder& builder,
+                  const std::vector<CellTraining>& training) {
+  fbs::CellTraining* flat = nullptr;
+  const auto vector = builder.CreateUninitializedVectorOfStructs(training.size(), &flat);
+  for (size_t i = 0; i < training.size(); ++i) flat[i] = to_flat(training[i]);
+  return vector;
+}
+
+void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
+  const GuideCache& c = file.cache;
+  const bool trainable = !c.training.empty();
+  flatbuffers::Offset<flatbuffers::Vector<const fbs::CellTraining*>> training;
+  flatbuffers::Offset<flatbuffers::Vector<const fbs::ComponentStatistics*>> statistics;
+  if (trainable) training = add_training(builder, c.training);
+  if (trainable) statistics = add_records(builder, c.statistics);
+  const auto components = add_records(builder, c.components);
+  const auto cells = add_records(builder, c.cells);
+  const auto nodes = add_records(builder, c.nodes);
+  const auto provenance = add_provenance(builder, file.provenance);
+  const fbs::Bounds bounds = waylight::to_flat(c.scene_bounds);
+  fbs::FinishGuideCacheBuffer(
+      builder,
+      fbs::CreateGuideCache(builder, kFormatVersion, provenance, &bounds, c.emitted, c.passes,
+                            c.photons, nodes, cells, components, statistics, training));
+}
+
+const fbs::GuideCache& root_of(const FileMap& map) {
+  return verified_root<fbs::GuideCache>(map.bytes(), map.path(), FileKind::cache,
+                                        fbs::GuideCacheIdentifier(), kFormatVersion);
+}
+
+GuideCacheView view_of(const fbs::GuideCache& root, const std::string& path) {
+  const GuideCacheView view(from_flat(*root.scene_bounds()),
+                            records_of<CacheNode>(root.nodes(), path),
+                            records_of<CacheCell>(root.cells(), path),
+                            records_of<GaussianComponent>(root.components(), path));
+  if (const std::string fault = check(view); !fault.empty()) fail_damaged(path, fault);
+  return view;
+}
+
+GuideCache copy_of(const fbs::GuideCache& root, const std::string& path) {
+  const GuideCacheView view = view_of(root, path);
+  GuideCache cache;
+  cache.scene_bounds = view.scene_bounds;
+  cache.emitted = root.emitted();
+  cache.passes = root.passes();
+  cache.photons = root.photons();
+  cache.nodes = waylight::copy_of(view.nodes);
+  cache.cells = waylight::copy_of(view.cells);
+  cache.components = waylight::copy_of(view.components);
+  cache.statistics = waylight::copy_of(records_of<ComponentStatistics>(root.statistics(), path));
+  cache.training = waylight::copy_of(records_of<CellTraining>(root.training(), path));
+  return cache;
+}
+
+Provenance provenance_of(const fbs::GuideCache& root, const FileMap& map) {
+  FlatStrings strings(map.bytes().size(), map.path());
+  return provenance_from(*root.provenance(), strings);
+}
+
+}  // namespace
+
+void write_cache(const std::string& path, const CacheFile& file) {
+  if (const std::string fault = check_all(file.cache); !fault.empty())
+    fail("\"{}\": not written, the cache is not valid: {}", path, fault);
+  check_flat_size(path, bytes_needed(file), "train fewer --max-cells, or reduce the cache");
+  flatbuffers::FlatBufferBuilder builder(bytes_needed(file) + 4096);
+  add_cache(builder, file);
+  write_whole_file(path, bytes_of(builder));
+}
+
+CacheFile read_cache(const std::string& path) {
+  const FileMap map(path);
+  const fbs::GuideCache& root = root_of(map);
+  CacheFile file{provenance_of(root, map), copy_of(root, path)};
+  if (const std::string fault = check_training_part(file.cache); !fault.empty())
+    fail_damaged(path, fault);
+  return file;
+}
+
+struct MappedCache::Impl {
+  explicit Impl(const std::string& path)
+      : map(path),
+        provenance(provenance_of(root_of(map), map)),
+        view(view_of(*fbs::GetGuideCache(map.bytes().data()), path)) {}
+
+  FileMap map;
+  Provenance provenance;
+  GuideCacheView view;
+};
+
+MappedCache::MappedCache(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
+MappedCache::~MappedCache() = default;
+MappedCache::MappedCache(MappedCache&&) noexcept = default;
+
+const Provenance& MappedCache::provenance() const { return impl_->provenance; }
+GuideCacheView MappedCache::view() const { return impl_->view; }
+
+}  // namespace waylight

@@ -1,0 +1,122 @@
+#include "formats/photon_chunk.h"
+
+#include "formats/flat_records.h"
+#include "formats/octahedral.h"
+
+namespace waylight {
+namespace {
+
+constexpr uint32_t kFormatVersion = 1;
+
+static_assert(sizeof(fbs::Photon) == 36);
+
+// A NaN fails every comparison.
+bool sensible(const Vec3& position, const Color& power) {
+  constexpr float kMax = std::numeric_limits<float>::max();
+  return (position.array().abs() <= kMax).all() && (power >= 0).all() && (power <= kMax).all();
+}
+
+bool is_unit(const Vec3& w) { return std::abs(w.squaredNorm() - 1) < 1e-3f; }
+
+void finish(flatbuffers::FlatBufferBuilder& builder, fbs::ChunkContent kind,
+            flatbuffers::Offset<void> content) {
+  fbs::FinishSizePrefixedPhotonChunkBuffer(builder, fbs::CreatePhotonChunk(builder, kind, content));
+}
+
+Photon unpack(const fbs::Photon& flat) {
+  Photon photon;
+  photon.position = from_flat(flat.position());
+  photon.direction = from_octahedral({flat.direction_u(), flat.direction_v()});
+  photon.normal = from_octahedral({flat.normal_u(), flat.normal_v()});
+  photon.power = from_flat(flat.power()).array();
+  photon.path_depth = flat.path_depth();
+  return photon;
+}
+
+}  // namespace
+
+fbs::Photon pack(const Photon& p, const std::string& path) {
+  if (!sensible(p.position, p.power) || !is_unit(p.direction) || !is_unit(p.normal))
+    fail("\"{}\": a photon is not finite, of negative power or without unit directions", path);
+  const Octahedral direction = to_octahedral(p.direction), normal = to_octahedral(p.normal);
+  return {to_flat(p.position), to_flat(p.power), direction.u, direction.v, normal.u, normal.v,
+          p.path_depth};
+}
+
+void build_header(flatbuffers::FlatBufferBuilder& builder, const PhotonHeader& header,
+                  const std::string& path) {
+  if (provenance_bytes(header.provenance) > kMaxChunkBytes / 2)
+    fail("\"{}\": the command line and the parents' names are too long for its header", path);
+  builder.Clear();
+  const auto provenance = add_provenance(builder, header.provenance);
+  const PhotonStreamInfo& stream = header.stream;
+  const fbs::Bounds bounds = to_flat(stream.scene_bounds);
+  const auto flat = fbs::CreatePhotonHeader(builder, kFormatVersion, provenance,
+                                            stream.scene_bounds.empty() ? nullptr : &bounds,
+                                            stream.emitted, stream.pass);
+  finish(builder, fbs::ChunkContent::PhotonHeader, flat.Union());
+}
+
+void build_block(flatbuffers::FlatBufferBuilder& builder, std::span<const fbs::Photon> photons) {
+  builder.Clear();
+  const auto vector = builder.CreateVectorOfStructs(photons.data(), photons.size());
+  finish(builder, fbs::ChunkContent::PhotonBlock, fbs::CreatePhotonBlock(builder, vector).Union());
+}
+
+void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& c) {
+  builder.Clear();
+  const auto end = fbs::CreatePhotonEnd(builder, c.emitted, c.stored, c.left_scene, c.absorbed,
+                                        c.too_deep, c.invalid);
+  finish(builder, fbs::ChunkContent::PhotonEnd, end.Union());
+}
+
+const fbs::PhotonChunk& verified_chunk(std::string_view bytes, const std::string& path) {
+  const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
+  flatbuffers::Verifier verifier(data, bytes.size());
+  if (!fbs::VerifySizePrefixedPhotonChunkBuffer(verifier))
+    fail_damaged(path, "bytes of a chunk were changed");
+  const fbs::PhotonChunk& chunk = *fbs::GetSizePrefixedPhotonChunk(data);
+  if (!chunk.content()) fail_damaged(path, "an empty chunk");
+  return chunk;
+}
+
+PhotonHeader header_of(const fbs::PhotonHeader& flat, size_t chunk_bytes, const std::string& path) {
+  check_format_version(path, flat.format_version(), kFormatVersion);
+  FlatStrings strings(chunk_bytes, path);
+  PhotonHeader header;
+  header.provenance = provenance_from(*flat.provenance(), strings);
+  if (flat.scene_bounds()) {
+    Bounds& bounds = header.stream.scene_bounds;
+    bounds = from_flat(*flat.scene_bounds());
+    if (bounds.empty() || !bounds.min.allFinite() || !bounds.max.allFinite())
+      fail_damaged(path, "scene bounds that are empty or not finite");
+  }
+  header.stream.emitted = flat.emitted();
+  header.stream.pass = flat.pass();
+  return header;
+}
+
+void photons_of(const fbs::PhotonBlock& flat, const std::string& path,
+                std::vector<Photon>* photons) {
+  const auto* packed = flat.photons();
+  photons->resize(packed ? packed->size() : 0);
+  for (uint32_t i = 0; i < photons->size(); ++i) {
+    Photon& photon = (*photons)[i];
+    photon = unpack(*packed->Get(i));
+    if (!sensible(photon.position, photon.power))
+      fail_damaged(path, "a photon is not finite or of negative power");
+  }
+}
+
+PhotonCounts counts_of(const fbs::PhotonEnd& flat) {
+  PhotonCounts counts;
+  counts.emitted = flat.emitted();
+  counts.stored = flat.stored();
+  counts.left_scene = flat.left_scene();
+  counts.absorbed = flat.absorbed();
+  counts.too_deep = flat.too_deep();
+  counts.invalid = flat.invalid();
+  return counts;
+}
+
+}  // namespace waylight

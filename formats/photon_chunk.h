@@ -1,0 +1,38 @@
+#pragma once
+// The chunks of a photon stream as bytes.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "formats/flat_file.h"
+#include "formats/photon_file.h"
+#include "formats/photons_generated.h"
+
+namespace waylight {
+
+inline constexpr size_t kPhotonsPerChunk = 16384;  // 576 KiB: stays in the second-level cache
+// Of what a reader accepts, its size prefix left out.
+inline constexpr size_t kMaxChunkBytes = size_t{4} << 20;
+
+// The photon as it is stored; throws Error for one that the reader would refuse. `path` is for
+// messages.
+fbs::Photon pack(const Photon& photon, const std::string& path);
+
+// Each replaces what the builder held by one finished chunk.
+void build_header(flatbuffers::FlatBufferBuilder& builder, const PhotonHeader& header,
+                  const std::string& path);
+void build_block(flatbuffers::FlatBufferBuilder& builder, std::span<const fbs::Photon> photons);
+void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& counts);
+
+// A chunk with its size prefix, verified.
+const fbs::PhotonChunk& verified_chunk(std::string_view bytes, const std::string& path);
+
+PhotonHeader header_of(const fbs::PhotonHeader& flat, size_t chunk_bytes, const std::string& path);
+void photons_of(const fbs::PhotonBlock& flat, const std::string& path,
+                std::vector<Photon>* photons);
+PhotonCounts counts_of(const fbs::PhotonEnd& flat);
+
+}  // namespace waylight
