@@ -1,7 +1,7 @@
 #pragma once
 // *.photons: a stream of size-prefixed FlatBuffers chunks, so that it can be piped. Schema
 // photons.fbs, identifier "WPHO". The first chunk is the header, the last one says how many photons
-// went before it: a stream without it is truncated. Directions and normals lose what is beyond 5e-5
+// went before it: a stream without it is truncated. Directions and normals lose what is beyond 7e-5
 // radians.
 
 #include <memory>
