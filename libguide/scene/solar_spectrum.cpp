@@ -25,18 +25,6 @@ constexpr SolarBand kBands[] = {
     {18628.9, 0.0, 0.061}, {18259.2, 0.0, 0.001},
 };
 
-// Piecewise Gaussian fit of the colour matching functions [Wyman, Sloan, Shirley 2013].
-double lobe(double x, double mean, double left, double right) {
-  const double t = (x - mean) / (x < mean ? left : right);
-  return std::exp(-0.5 * t * t);
-}
-Eigen::Array3d matching(double nm) {
-  return {1.056 * lobe(nm, 599.8, 37.9, 31.0) + 0.362 * lobe(nm, 442.0, 16.0, 26.7) -
-              0.065 * lobe(nm, 501.1, 20.4, 26.2),
-          0.821 * lobe(nm, 568.8, 46.9, 40.5) + 0.286 * lobe(nm, 530.9, 16.3, 31.1),
-          1.217 * lobe(nm, 437.0, 11.8, 36.0) + 0.681 * lobe(nm, 459.0, 26.0, 13.8)};
-}
-
 // Share of sunlight that comes through, [Preetham et al. 1999, appendix A.1] with the exponents of
 // [Iqbal 1983]: Rayleigh, aerosol, 0.35 cm of ozone, 2 cm of water. (The paper prints the air mass
 // in the exponent of the wavelength, which gives no blue loss at noon.) The mixed gases absorb only
@@ -58,16 +46,11 @@ Eigen::Array3d sun_xyz(double polar_angle, double turbidity) {
   Eigen::Array3d xyz = Eigen::Array3d::Zero();
   double nm = kFirstWavelength;
   for (const SolarBand& band : kBands) {
-    xyz += matching(nm) * (band.radiance * transmittance(band, nm, air_mass, turbidity) * kStep);
+    xyz +=
+        color_matching(nm) * (band.radiance * transmittance(band, nm, air_mass, turbidity) * kStep);
     nm += kStep;
   }
   return xyz / kLuminanceIntegral;
-}
-
-Eigen::Array3d xyz_to_linear_srgb(const Eigen::Array3d& xyz) {
-  Eigen::Matrix3d m;
-  m << 3.240479, -1.537150, -0.498535, -0.969256, 1.875991, 0.041556, 0.055648, -0.204043, 1.057311;
-  return (m * xyz.matrix()).array();
 }
 
 }  // namespace waylight

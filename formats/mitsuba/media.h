@@ -1,0 +1,21 @@
+#pragma once
+// What the importers of media share.
+
+#include <optional>
+
+#include "formats/mitsuba/import_context.h"
+
+namespace waylight::mitsuba {
+
+// volumes.cpp: a property that is a <volume>, a colour or a number.
+VolumeTexture volume_property(ImportContext& context, Properties& properties,
+                              const std::string& name, const Color& otherwise);
+
+// medium_presets.cpp: scattering (reduced, for an isotropic phase) and absorption per mm.
+struct ScatteringPreset {
+  Color sigma_s, sigma_a;
+};
+std::optional<ScatteringPreset> medium_preset(const std::string& name);
+std::vector<std::string> known_media();
+
+}  // namespace waylight::mitsuba
