@@ -61,10 +61,8 @@ fbs::CellTraining to_flat(const CellTraining& t) {
 
 auto add_training(flatbuffers::FlatBufferBuilder& builder,
                   const std::vector<CellTraining>& training) {
-  fbs::CellTraining* flat = nullptr;
-  const auto vector = builder.CreateUninitializedVectorOfStructs(training.size(), &flat);
-  for (size_t i = 0; i < training.size(); ++i) flat[i] = to_flat(training[i]);
-  return vector;
+  return builder.CreateVectorOfStructs<fbs::CellTraining>(
+      training.size(), [&](size_t i, fbs::CellTraining* flat) { *flat = to_flat(training[i]); });
 }
 
 void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {

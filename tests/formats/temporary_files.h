@@ -23,6 +23,7 @@ class TemporaryFiles : public ::testing::Test {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   std::string put(const std::string& name, std::string_view bytes) const {
+    std::filesystem::remove(path(name));  // some file systems wait for the disk when they truncate
     std::ofstream(path(name), std::ios::binary) << bytes;
     return path(name);
   }

@@ -1,0 +1,207 @@
+// Whatever happens to a file, its reader says so or finds valid content.
+
+#include <flatbuffers/flatbuffers.h>
+
+#include <functional>
+
+#include "formats/file_kind.h"
+#include "formats/image_io.h"
+#include "formats/small_caches.h"
+#include "formats/temporary_files.h"
+
+namespace waylight {
+namespace {
+
+using namespace testing;
+
+struct Reader {
+  const char* name;
+  std::function<void(const std::string& path)> read;
+};
+
+class Damage : public TemporaryFiles {
+ protected:
+  void SetUp() override {
+    TemporaryFiles::SetUp();
+    write_cache(path("good.cache"), small_cache());
+    write_brdf(path("good.brdf"), small_brdf());
+    write_photons(path("good.photons"), random_photons(50));
+    write_exr(path("good.exr"), Image(2, 2, {"R", "G", "B"}));
+  }
+  std::string good(const Reader& reader) const {
+    return read_whole_file(path(std::string("good.") + reader.name));
+  }
+};
+
+const std::vector<Reader> kReaders = {
+    {"cache", [](const std::string& path) { read_cache(path); }},
+    {"cache", [](const std::string& path) { MappedCache{path}; }},
+    {"brdf", [](const std::string& path) { read_brdf(path); }},
+    {"photons", [](const std::string& path) { read_photons(path); }},
+};
+
+// True when the file was refused; any other exception fails the test.
+bool refused(const Reader& reader, const std::string& path) {
+  try {
+    reader.read(path);
+    return false;
+  } catch (const Error& error) {
+    EXPECT_TRUE(mentions(error.what(), path)) << error.what();
+    return true;
+  }
+}
+
+TEST_F(Damage, TruncationAtAnyLengthIsRefused) {
+  for (const Reader& reader : kReaders) {
+    const std::string bytes = good(reader);
+    for (size_t length = 0; length < bytes.size(); ++length)
+      ASSERT_TRUE(refused(reader, put("cut", bytes.substr(0, length))))
+          << reader.name << " of " << length << " bytes";
+  }
+}
+
+TEST_F(Damage, ChangedBitsNeverCrash) {
+  std::mt19937 random(7);
+  for (const Reader& reader : kReaders) {
+    const std::string bytes = good(reader);
+    int refusals = 0;
+    for (int i = 0; i < 2000; ++i) {
+      std::string changed = bytes;
+      for (int flips = 1 + i % 3; flips > 0; --flips)
+        changed[random() % changed.size()] ^= static_cast<char>(1 << random() % 8);
+      refusals += refused(reader, put("changed", changed));
+    }
+    EXPECT_GT(refusals, 200) << reader.name;
+  }
+}
+
+TEST_F(Damage, ChangedWordsNeverCrash) {
+  for (const Reader& reader : kReaders) {
+    const std::string bytes = good(reader);
+    for (const uint32_t word : {0u, 1u, 0x7fffffffu, 0x80000000u, 0xffffffffu, 0x7fc00000u})
+      for (size_t at = 0; at + 4 <= std::min<size_t>(bytes.size(), 1500); at += 4) {
+        std::string changed = bytes;
+        std::memcpy(changed.data() + at, &word, 4);
+        refused(reader, put("changed", changed));
+      }
+  }
+}
+
+TEST_F(Damage, NoiseAndEmptyFilesAreRefused) {
+  std::string noise(5000, 0);
+  std::mt19937 random(3);
+  for (char& c : noise) c = static_cast<char>(random());
+  for (const Reader& reader : kReaders) {
+    EXPECT_TRUE(
+        mentions(error_of([&] { reader.read(put("noise", noise)); }), "no file of Waylight"));
+    EXPECT_TRUE(mentions(error_of([&] { reader.read(put("empty", "")); }), "is empty"));
+    EXPECT_TRUE(mentions(error_of([&] { reader.read(path("missing")); }), "No such file"));
+    EXPECT_TRUE(mentions(error_of([&] { reader.read(path("")); }), "is a folder"));
+  }
+}
+
+TEST_F(Damage, FileOfAnotherKindIsNamed) {
+  const auto message = [this](size_t reader, const char* name) {
+    return error_of([&] { kReaders[reader].read(path(name)); });
+  };
+  EXPECT_TRUE(mentions(message(0, "good.brdf"), "is a BRDF cache (*.brdf), not an illumination"));
+  EXPECT_TRUE(mentions(message(1, "good.photons"), "is a photon stream (*.photons), not an illum"));
+  EXPECT_TRUE(mentions(message(2, "good.cache"), "is an illumination cache (*.cache), not a BRDF"));
+  EXPECT_TRUE(mentions(message(3, "good.exr"), "is an OpenEXR image (*.exr), not a photon stream"));
+}
+
+TEST_F(Damage, EveryKindIsIdentifiedByItsContent) {
+  EXPECT_EQ(identify_file(path("good.cache")), FileKind::cache);
+  EXPECT_EQ(identify_file(path("good.brdf")), FileKind::brdf);
+  EXPECT_EQ(identify_file(path("good.photons")), FileKind::photons);
+  EXPECT_EQ(identify_file(path("good.exr")), FileKind::exr);
+  EXPECT_EQ(identify_file(put("text", "<scene/>")), FileKind::unknown);
+  EXPECT_EQ(identify_file(put("empty", "")), FileKind::unknown);
+  EXPECT_TRUE(mentions(error_of([&] { identify_file(path("missing")); }), "No such file"));
+}
+
+// Sets the first field of the root table, or of the union's table in a chunk.
+std::string with_version(std::string bytes, uint32_t version, bool chunk) {
+  auto* data = reinterpret_cast<uint8_t*>(bytes.data());
+  const auto* root = flatbuffers::GetMutableRoot<flatbuffers::Table>(chunk ? data + 4 : data);
+  if (chunk) root = root->GetPointer<const flatbuffers::Table*>(6);
+  const uint8_t* field = root->GetAddressOf(4);
+  std::memcpy(bytes.data() + (field - data), &version, sizeof(version));
+  return bytes;
+}
+
+TEST_F(Damage, NewerFormatVersionAsksForANewerRelease) {
+  for (const Reader& reader : kReaders) {
+    const bool chunk = reader.name == std::string("photons");
+    const std::string newer = put("newer", with_version(good(reader), 2, chunk));
+    const std::string message = error_of([&] { reader.read(newer); });
+    EXPECT_TRUE(mentions(message, "format version 2")) << message;
+    EXPECT_TRUE(mentions(message, "newer release")) << message;
+    EXPECT_FALSE(refused(reader, put("same", with_version(good(reader), 1, chunk))));
+  }
+}
+
+TEST_F(Damage, WritersRefuseWhatReadersWould) {
+  CacheFile cache = small_cache();
+  cache.cache.cells[0].irradiance = -1;
+  EXPECT_TRUE(mentions(error_of([&] { write_cache(path("x"), cache); }), "cell 0"));
+  cache = small_cache();
+  cache.cache.training.pop_back();
+  EXPECT_TRUE(mentions(error_of([&] { write_cache(path("x"), cache); }), "training"));
+  BrdfFile brdf = small_brdf();
+  brdf.cache.entries[1].component_count = 2;
+  EXPECT_TRUE(mentions(error_of([&] { write_brdf(path("x"), brdf); }), "entry 1"));
+  brdf = small_brdf();
+  brdf.cache.materials[1].entry_count = 4;
+  EXPECT_TRUE(mentions(error_of([&] { write_brdf(path("x"), brdf); }), "material \"metal\""));
+  for (const auto& spoil : std::vector<std::function<void(Photon&)>>{
+           [](Photon& p) { p.position.x() = kInfinity; },
+           [](Photon& p) { p.power.y() = std::nanf(""); }, [](Photon& p) { p.power.y() = -1; },
+           [](Photon& p) { p.direction *= 2; }, [](Photon& p) { p.normal = Vec3::Zero(); }}) {
+    std::vector<Photon> photons = random_photons(3);
+    spoil(photons[1]);
+    EXPECT_TRUE(mentions(error_of([&] { write_photons(path("x"), photons); }), "photon"));
+  }
+  EXPECT_EQ(file_count(), 4u);  // nothing half-written
+}
+
+TEST_F(Damage, StreamsWithoutEndOrWithMoreAfterItAreRefused) {
+  const std::string bytes = read_whole_file(path("good.photons"));
+  uint32_t size[2];
+  std::memcpy(&size[0], bytes.data(), 4);
+  std::memcpy(&size[1], bytes.data() + size[0] + 4, 4);
+  const size_t block = size[0] + 4, end = block + size[1] + 4;
+  const auto message = [&](const std::string& content) {
+    return error_of([&] { read_photons(put("x", content)); });
+  };
+  EXPECT_TRUE(mentions(message(bytes.substr(0, end)), "truncated after 50 photons"));
+  EXPECT_TRUE(mentions(message(bytes.substr(0, block)), "truncated after 0 photons"));
+  EXPECT_TRUE(mentions(message(bytes + "x"), "data after its end"));
+  EXPECT_TRUE(mentions(message(bytes.substr(block)), "does not begin with a header"));
+  EXPECT_TRUE(mentions(message(bytes.substr(0, block) + bytes), "out of place"));
+  EXPECT_TRUE(mentions(message(bytes.substr(0, block) + bytes.substr(end)), "its end says 50"));
+  const std::string huge = bytes.substr(0, block) + std::string("\xff\xff\xff\x7f") + bytes;
+  EXPECT_TRUE(mentions(message(huge), "a chunk of 2147483647 bytes"));
+}
+
+TEST(RequireSameScene, NamesWhatDiffersAndTheRemedy) {
+  const Provenance made_for = small_provenance();
+  SceneHash other = made_for.scene;
+  require_same_scene("a.cache", made_for, "room.xml", other, SceneParts::all);
+  other.geometry = 9, other.media = 9;
+  require_same_scene("a.cache", made_for, "hall.xml", other, SceneParts::materials);
+  const std::string message = error_of(
+      [&] { require_same_scene("a.cache", made_for, "hall.xml", other, SceneParts::all); });
+  for (const char* part : {"a.cache", "room.xml", "hall.xml", "geometry and media", "cache-train"})
+    EXPECT_TRUE(mentions(message, part)) << message;
+  other = made_for.scene, other.materials = 9, other.emitters = 9;
+  EXPECT_TRUE(
+      mentions(error_of([&] { require_same_scene("a", made_for, "", other, SceneParts::all); }),
+               "materials and emitters"));
+  EXPECT_TRUE(mentions(
+      error_of([&] { require_same_scene("a", made_for, "", other, SceneParts::materials); }),
+      "other materials:"));
+}
+
+}  // namespace
+}  // namespace waylight
