@@ -1,0 +1,175 @@
+#include "formats/mitsuba/scene_texts.h"
+
+namespace waylight {
+namespace {
+
+using testing::mentions;
+
+class SensorTest : public testing::MitsubaScenes {
+ protected:
+  SensorDescription sensor(const std::string& children, const std::string& type = "perspective",
+                           const std::string& version = "3.0.0") {
+    return import("<sensor type=\"" + type + "\">" + children + "</sensor>", version).sensor;
+  }
+  std::string sensor_error(const std::string& children, const std::string& type = "perspective") {
+    return import_error("<sensor type=\"" + type + "\">\n" + children + "</sensor>");
+  }
+  float fov(const std::string& axis, int width, int height) {
+    const float radians =
+        sensor(fmt::format("<float name=\"fov\" value=\"60\"/><string name=\"fov_axis\" "
+                           "value=\"{}\"/><film type=\"hdrfilm\"><integer name=\"width\" "
+                           "value=\"{}\"/><integer name=\"height\" value=\"{}\"/></film>",
+                           axis, width, height))
+            .fov_x;
+    return radians * 180 / kPi;
+  }
+  FilmDescription film(const std::string& children, const std::string& version = "3.0.0") {
+    return sensor("<film type=\"hdrfilm\">" + children + "</film>", "perspective", version).film;
+  }
+};
+
+TEST_F(SensorTest, FieldOfViewRefersToItsAxis) {
+  EXPECT_NEAR(fov("x", 200, 100), 60, 1e-4);
+  EXPECT_NEAR(fov("y", 200, 100), 98.2132f, 1e-3);
+  EXPECT_NEAR(fov("smaller", 200, 100), 98.2132f, 1e-3);
+  EXPECT_NEAR(fov("larger", 200, 100), 60, 1e-4);
+  EXPECT_NEAR(fov("smaller", 100, 200), 60, 1e-4);
+  EXPECT_NEAR(fov("larger", 100, 200), 32.2042f, 1e-3);
+  EXPECT_NEAR(fov("diagonal", 400, 300), 49.5826f, 1e-3);
+}
+
+TEST_F(SensorTest, FocalLengthRefersToTheDiagonalOf35mmFilm) {
+  // The diagonal of a 3:2 picture at 50 mm spans 46.79 degrees, its width 39.6.
+  const std::string film = R"(<film type="hdrfilm"><integer name="width" value="300"/>
+    <integer name="height" value="200"/></film>)";
+  const float degrees = 180 / kPi;
+  EXPECT_NEAR(sensor(film).fov_x * degrees, 39.5978f, 1e-3);
+  EXPECT_NEAR(sensor(film + "<string name=\"focal_length\" value=\"50mm\"/>").fov_x * degrees,
+              39.5978f, 1e-3);
+  EXPECT_NEAR(sensor(film + "<float name=\"focal_length\" value=\"18\"/>").fov_x * degrees, 90,
+              1e-3);
+}
+
+TEST_F(SensorTest, LensAndPrincipalPointAreRead) {
+  const SensorDescription lens = sensor(R"(<float name="fov" value="40"/>
+    <float name="apertureRadius" value="0.2"/><float name="focusDistance" value="3"/>
+    <float name="nearClip" value="1"/><sampler type="ldsampler"/>)",
+                                        "thinlens", "0.5.0");
+  EXPECT_EQ(lens.aperture_radius, 0.2f);
+  EXPECT_EQ(lens.focus_distance, 3);
+  const SensorDescription shifted = sensor(R"(<float name="principal_point_offset_x" value="0.1"/>
+    <float name="principal_point_offset_y" value="-0.2"/>)");
+  EXPECT_EQ(shifted.principal_x, 0.1f);
+  EXPECT_EQ(shifted.principal_y, -0.2f);
+  EXPECT_EQ(shifted.aperture_radius, 0);
+}
+
+TEST_F(SensorTest, UniformScaleIsTakenOutWithAWarning) {
+  const SensorDescription scaled =
+      sensor("<transform name=\"to_world\"><scale value=\"3\"/><translate x=\"1\"/></transform>");
+  const Mat4 expected = Eigen::Affine3f(Eigen::Translation3f(1, 0, 0)).matrix();
+  EXPECT_TRUE(scaled.to_world.isApprox(expected));
+  EXPECT_TRUE(mentions(warnings_.at(0), "scale"));
+}
+
+TEST_F(SensorTest, FilmCropAndFilters) {
+  const FilmDescription cropped = film(R"(<integer name="width" value="20"/>
+    <integer name="height" value="10"/><integer name="cropOffsetX" value="5"/>
+    <integer name="cropOffsetY" value="2"/><integer name="cropWidth" value="10"/>
+    <integer name="cropHeight" value="4"/><boolean name="banner" value="false"/>
+    <rfilter type="mitchell"><float name="B" value="0.2"/><float name="C" value="0.4"/></rfilter>)",
+                                       "0.6.0");
+  EXPECT_EQ(cropped.width, 20);
+  EXPECT_EQ(cropped.crop_x, 5);
+  EXPECT_EQ(cropped.crop_y, 2);
+  EXPECT_EQ(cropped.crop_width, 10);
+  EXPECT_EQ(cropped.crop_height, 4);
+  EXPECT_EQ(cropped.filter, FilterType::mitchell);
+  EXPECT_EQ(cropped.filter_b, 0.2f);
+  EXPECT_EQ(cropped.filter_c, 0.4f);
+  EXPECT_EQ(film("").crop_width, 0);
+  EXPECT_EQ(film("<rfilter type=\"box\"/>").filter, FilterType::box);
+  EXPECT_EQ(film("<rfilter type=\"tent\"/>").filter, FilterType::tent);
+  EXPECT_EQ(film("").filter, FilterType::gaussian);
+}
+
+TEST_F(SensorTest, FilterThatIsNotImplementedIsReplacedOnlyWhenAsked) {
+  const std::string body = "<film type=\"hdrfilm\"><rfilter type=\"lanczos\"/></film>";
+  EXPECT_TRUE(mentions(sensor_error(body), "--lenient"));
+  options_.lenient = true;
+  EXPECT_EQ(sensor(body).film.filter, FilterType::mitchell);
+  EXPECT_TRUE(mentions(warnings_.at(0), "mitchell"));
+}
+
+TEST_F(SensorTest, WrongValuesNameTheElement) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"<float name=\"fov\" value=\"180\"/>", "fov"},
+      {"<float name=\"fovv\" value=\"1\"/>", "did you mean \"fov\""},
+      {"<string name=\"fov_axis\" value=\"z\"/><float name=\"fov\" value=\"9\"/>", "fov_axis"},
+      {"<float name=\"fov\" value=\"9\"/><float name=\"focal_length\" value=\"9\"/>", "both"},
+      {"<film type=\"hdrfilm\"><integer name=\"width\" value=\"0\"/></film>", "width is 0"},
+      {"<film type=\"hdrfilm\"><integer name=\"width\" value=\"99999999\"/></film>", "width"},
+      {"<film type=\"hdrfilm\"><integer name=\"crop_offset_x\" value=\"900\"/></film>", "crop"},
+      {"<film type=\"hdrfim\"/>", "did you mean \"hdrfilm\""},
+      {"<film type=\"hdrfilm\"><rfilter type=\"bx\"/></film>", "did you mean \"box\""},
+      {"<transform name=\"to_world\"><scale x=\"2\"/></transform>", "rotation"},
+      {"<transform name=\"to_world\"><scale value=\"0\"/></transform>", "rotation"}};
+  for (const auto& [body, message] : cases) {
+    const std::string error = sensor_error(body);
+    EXPECT_TRUE(mentions(error, message)) << error;
+    EXPECT_TRUE(mentions(error, "scene.xml\":")) << error;
+  }
+  EXPECT_TRUE(mentions(sensor_error("", "perspektive"), "did you mean \"perspective\""));
+  EXPECT_TRUE(mentions(sensor_error("", "thinlens"), "aperture_radius"));
+}
+
+TEST_F(SensorTest, IntegratorGivesDefaults) {
+  const IntegratorDefaults path = import(R"(<integrator type="path">
+    <integer name="maxDepth" value="7"/><integer name="rrDepth" value="3"/>
+    <boolean name="hideEmitters" value="true"/><boolean name="strictNormals" value="true"/>
+    </integrator>)",
+                                         "0.6.0")
+                                      .integrator;
+  EXPECT_EQ(path.max_depth, 7);
+  EXPECT_EQ(path.rr_depth, 3);
+  EXPECT_TRUE(path.hide_emitters);
+  EXPECT_EQ(import("<integrator type=\"direct\"/>").integrator.max_depth, 2);
+  EXPECT_EQ(import(R"(<integrator type="moment"><integrator type="volpath">
+    <integer name="max_depth" value="16"/></integrator></integrator>)")
+                .integrator.max_depth,
+            16);
+}
+
+TEST_F(SensorTest, OtherIntegratorsAreAcceptedWithAWarning) {
+  const SceneDescription scene = import(R"(<integrator type="guidedpath">
+    <integer name="max_depth" value="9"/><integer name="anything" value="3"/></integrator>)");
+  EXPECT_EQ(scene.integrator.max_depth, 9);
+  EXPECT_TRUE(mentions(warnings_.at(0), "guidedpath"));
+  EXPECT_TRUE(
+      mentions(import_error("<integrator type=\"path\"/><integrator type=\"path\"/>"), "already"));
+  EXPECT_TRUE(mentions(import_error(R"(<integrator type="path">
+    <integer name="max_dept" value="3"/></integrator>)"),
+                       "did you mean \"max_depth\""));
+}
+
+TEST_F(SensorTest, TheFirstOfSeveralSensorsIsUsed) {
+  const SceneDescription scene = import(R"(
+    <sensor type="perspective"><float name="fov" value="90"/></sensor>
+    <sensor type="perspective"><float name="fov" value="20"/></sensor>)");
+  EXPECT_NEAR(scene.sensor.fov_x, kPi / 2, 1e-5f);
+  EXPECT_TRUE(mentions(warnings_.at(0), "left out"));
+}
+
+TEST_F(SensorTest, WhatCannotStandAtTheTopIsAnError) {
+  EXPECT_TRUE(mentions(import_error("<float name=\"x\" value=\"1\"/>"), "top of a scene"));
+  EXPECT_TRUE(mentions(import_error("<bsdf type=\"diffuse\"/>"), "needs an id"));
+}
+
+TEST_F(SensorTest, UnusedDefineIsAWarning) {
+  options_.defines = {{"spp", "3"}};
+  import("");
+  EXPECT_TRUE(mentions(warnings_.at(0), "-D spp"));
+}
+
+}  // namespace
+}  // namespace waylight
