@@ -16,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // No scene made for rendering comes near these; a hostile one would need memory without end.
-constexpr uintmax_t kMaxFileBytes = 64 << 20;
-constexpr size_t kMaxElements = 1 << 20;
+constexpr size_t kMaxBytes = 32 << 20;  // of all files together
+constexpr size_t kMaxElements = 1 << 20, kMaxIncludes = 4096;
 constexpr int kMaxDepth = 64, kMaxIncludeDepth = 32;
 
 // One XML file while it is read.
@@ -34,12 +34,15 @@ struct SourceFile {
   }
 };
 
-void load(SourceFile& file) {
+// Takes the size of the file from the bytes that may still be read.
+void load(SourceFile& file, size_t& budget) {
   std::error_code error;
-  if (fs::file_size(file.path, error) > kMaxFileBytes && !error)
-    fail("\"{}\": a scene file of more than {} MiB; move its data into mesh files", file.path,
-         kMaxFileBytes >> 20);
+  const uintmax_t size = fs::file_size(file.path, error);
+  if (!error && size > budget)
+    fail("\"{}\": a scene of more than {} MiB of XML; move its data into mesh files", file.path,
+         kMaxBytes >> 20);
   const std::string text = read_whole_file(file.path);
+  budget -= std::min(text.size(), budget);
   file.line_starts = {0};
   for (size_t i = 0; i < text.size(); ++i)
     if (text[i] == '\n') file.line_starts.push_back(i + 1);
@@ -65,7 +68,7 @@ class DocumentParser {
   Document parse() {
     SourceFile file;
     file.path = document_.path;
-    load(file);
+    load(file, bytes_left_);
     const pugi::xml_node root = file.xml.document_element();
     document_.root = read_attributes(file, root);
     if (document_.root.tag != "scene")
@@ -224,7 +227,9 @@ class DocumentParser {
         fail_at(directive, "\"{}\" includes itself", file.path);
     if (open_files_.size() >= kMaxIncludeDepth)
       fail_at(directive, "includes are nested deeper than {}", kMaxIncludeDepth);
-    load(file);
+    if (++includes_ > kMaxIncludes)
+      fail_at(directive, "there are more than {} includes", kMaxIncludes);
+    load(file, bytes_left_);
     open_files_.push_back(file.path);
     splice(file, parent, depth);
     open_files_.pop_back();
@@ -244,7 +249,7 @@ class DocumentParser {
   std::set<std::string> used_parameters_;
   std::vector<std::string> open_files_;
   std::vector<Element> aliases_;
-  size_t elements_ = 0;
+  size_t elements_ = 0, includes_ = 0, bytes_left_ = kMaxBytes;
   Document document_;
 };
 

@@ -82,7 +82,7 @@ TEST_F(DocumentTest, IncludesThatMultiplyAreStopped) {
   }
   put("level6.xml", wrap("<film type=\"x\"/>"));
   const std::string error = parse_error("<include filename=\"level0.xml\"/>");
-  EXPECT_TRUE(mentions(error, "elements")) << error;
+  EXPECT_TRUE(mentions(error, "more than 4096 includes")) << error;
 }
 
 TEST_F(DocumentTest, MissingIncludeNamesWhoAskedForIt) {
@@ -123,13 +123,14 @@ TEST_F(DocumentTest, ReferenceCycleIsRefused) {
 
 TEST_F(DocumentTest, LongChainOfReferencesIsRefusedInEitherOrder) {
   std::string forwards, backwards;
-  for (int i = 0; i < 20000; ++i) {
-    const std::string element = "<bsdf type=\"x\" id=\"" + std::to_string(i) + "\"><ref id=\"" +
-                                std::to_string(i + 1) + "\"/></bsdf>";
-    forwards += element;
-    backwards = element + backwards;
+  for (int i = 0; i < 2000; ++i) {
+    const auto element = [](int id) {
+      return fmt::format("<bsdf type=\"x\" id=\"{}\"><ref id=\"{}\"/></bsdf>", id, id + 1);
+    };
+    forwards += element(i);
+    backwards += element(1999 - i);
   }
-  const std::string last = "<bsdf type=\"x\" id=\"20000\"/>";
+  const std::string last = "<bsdf type=\"x\" id=\"2000\"/>";
   EXPECT_TRUE(mentions(parse_error(forwards + last), "nested deeper"));
   EXPECT_TRUE(mentions(parse_error(last + backwards), "nested deeper"));
 }
