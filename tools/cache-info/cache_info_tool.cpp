@@ -1,0 +1,61 @@
+#include "tools/cache-info/cache_info_tool.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/file_kind.h"
+#include "libguide/base/error.h"
+#include "tools/cache-info/describe.h"
+#include "tools/cache-info/text_report.h"
+#include "tools/common/provenance_of.h"
+
+namespace waylight {
+namespace {
+
+void validate(const CacheInfoArguments& arguments, FileKind kind) {
+  const LobePlotArguments& plot = arguments.plot;
+  require(plot.target.empty() == plot.output.empty(),
+          "--plot CELL|MATERIAL and -o PICTURE belong together");
+  require(plot.samples.empty() || kind == FileKind::cache,
+          "--samples belongs to the --plot of an illumination cache");
+  require(plot.scene.path.empty() || kind == FileKind::brdf,
+          "--scene belongs to the --plot of a BRDF cache");
+  require(plot.target.empty() || kind == FileKind::cache || kind == FileKind::brdf,
+          "--plot draws lobes of caches, and \"{}\" is {}", arguments.file, describe(kind));
+  if (kind == FileKind::unknown)
+    fail("\"{}\": is {} (fitted BSDFs, photons, an illumination cache or an EXR image)",
+         arguments.file, describe(kind));
+}
+
+// Reading has verified everything already; what remains is what a reader may let pass.
+void require_sound(const std::string& path, const nlohmann::ordered_json& info) {
+  if (const auto found = info.find("not_finite"); found != info.end() && *found != 0)
+    fail("\"{}\": {} numbers are not finite", path, found->get<uint64_t>());
+}
+
+}  // namespace
+
+void cache_info(const ToolRun& run, const CacheInfoArguments& arguments) {
+  const FileKind kind = identify_file(arguments.file);
+  validate(arguments, kind);
+  if (!arguments.plot.target.empty()) {
+    kind == FileKind::cache ? plot_cell(run, arguments.file, arguments.plot)
+                            : plot_material(run, arguments.file, arguments.plot);
+    return;
+  }
+  nlohmann::ordered_json info = describe_content(arguments.file, kind, run);
+  if (arguments.check) {
+    require_sound(arguments.file, info);
+    info["sound"] = true;
+  }
+  run.write_stats(info);
+  if (arguments.json)
+    run.print(info.dump(2));
+  else if (arguments.check)
+    run.print(fmt::format("\"{}\" is sound: {}", file_name(arguments.file), describe(kind)));
+  else
+    for (const std::string& line : text_report(info)) run.print(line);
+}
+
+}  // namespace waylight

@@ -1,0 +1,224 @@
+#include "tools/cache-info/describe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "formats/brdf_file.h"
+#include "formats/cache_file.h"
+#include "formats/image_io.h"
+#include "formats/photon_file.h"
+#include "libguide/base/error.h"
+#include "tools/common/provenance_of.h"
+
+namespace waylight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hex(uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+double ratio(double sum, double count) { return count > 0 ? sum / count : 0; }
+
+// Least, mean and largest of some numbers.
+class Range {
+ public:
+  void add(double value) {
+    least_ = count_ == 0 ? value : std::min(least_, value);
+    largest_ = count_ == 0 ? value : std::max(largest_, value);
+    sum_ += value;
+    ++count_;
+  }
+  Json json() const {
+    return {{"least", least_}, {"mean", ratio(sum_, double(count_))}, {"largest", largest_}};
+  }
+
+ private:
+  uint64_t count_ = 0;
+  double sum_ = 0, least_ = 0, largest_ = 0;
+};
+
+Json head(const std::string& path, FileKind kind) {
+  return {{"file", file_name(path)},
+          {"kind", describe(kind)},
+          {"bytes", std::filesystem::file_size(path)}};
+}
+
+void add_provenance(Json& info, const Provenance& p) {
+  info.update(stats_of(p));
+  info["scene_hash"] = {{"geometry", hex(p.scene.geometry)},
+                        {"materials", hex(p.scene.materials)},
+                        {"emitters", hex(p.scene.emitters)},
+                        {"media", hex(p.scene.media)}};
+  Json parents = Json::array();
+  for (const ParentFile& parent : p.parents)
+    parents.push_back({{"name", parent.name}, {"hash", hex(parent.hash)}});
+  info["parents"] = parents;
+}
+
+Json describe_material(const MaterialFit& fit, const BrdfCache& cache) {
+  double components = 0, error = 0;
+  for (uint32_t i = fit.first_entry; i < fit.first_entry + fit.entry_count; ++i) {
+    components += cache.entries[i].component_count;
+    error += cache.entries[i].held_out_error;
+  }
+  return {{"index", fit.material},
+          {"name", fit.name},
+          {"kind", fit.kind},
+          {"textured", fit.textured},
+          {"entries", fit.entry_count},
+          {"components", components / fit.entry_count},
+          {"held_out_error", error / fit.entry_count}};
+}
+
+Json describe_brdf(const std::string& path) {
+  const BrdfFile file = read_brdf(path);
+  Json info = head(path, FileKind::brdf);
+  add_provenance(info, file.provenance);
+  const BrdfCache& cache = file.cache;
+  info["entries"] = cache.entries.size();
+  info["components"] = cache.components.size();
+  Json materials = Json::array();
+  for (const MaterialFit& fit : cache.materials) materials.push_back(describe_material(fit, cache));
+  info["materials"] = materials;
+  return info;
+}
+
+void add_cells(Json& info, const GuideCache& cache) {
+  uint64_t with_mixture = 0, usable = 0;
+  Range components, effective, photons, irradiance, mass;
+  for (const CacheCell& cell : cache.cells) {
+    irradiance.add(cell.irradiance);
+    if (cell.component_count == 0) continue;
+    ++with_mixture;
+    usable += cell.effective_samples >= kMinEffectiveSamples;
+    components.add(cell.component_count);
+    effective.add(cell.effective_samples);
+    photons.add(cell.photon_count);
+    mass.add(cell.guided_mass);
+  }
+  info.update({{"cells", cache.cells.size()},
+               {"cells_with_mixture", with_mixture},
+               {"cells_that_guide", usable},
+               {"components", components.json()},
+               {"effective_samples", effective.json()},
+               {"photons_per_cell", photons.json()},
+               {"guided_mass", mass.json()},
+               {"irradiance", irradiance.json()}});
+}
+
+Json describe_training(const GuideCache& cache) {
+  if (cache.training.empty()) return "dropped: training cannot go on";
+  Range steps, samples;
+  for (const CellTraining& t : cache.training) steps.add(t.step), samples.add(t.samples);
+  return {{"steps", steps.json()}, {"samples", samples.json()}};
+}
+
+Json describe_cache(const std::string& path) {
+  const CacheFile file = read_cache(path);
+  const GuideCache& cache = file.cache;
+  Json info = head(path, FileKind::cache);
+  add_provenance(info, file.provenance);
+  info.update({{"passes", cache.passes},
+               {"particles", cache.emitted},
+               {"photons", cache.photons},
+               {"nodes", cache.nodes.size()}});
+  add_cells(info, cache);
+  info["training"] = describe_training(cache);
+  return info;
+}
+
+struct PhotonTally {
+  static constexpr size_t kDepths = 16;  // the last one stands for all deeper ones
+  std::array<uint64_t, kDepths> counts{};
+  std::array<double, kDepths> power{};  // luminance
+
+  void add(const Photon& photon) {
+    const size_t depth = std::min<size_t>(photon.path_depth, kDepths - 1);
+    ++counts[depth];
+    power[depth] += luminance(photon.power);
+  }
+  Json json() const {
+    Json rows = Json::array();
+    for (size_t i = 0; i < kDepths; ++i)
+      if (counts[i] > 0)
+        rows.push_back({{"depth", fmt::format("{}{}", i, i + 1 < kDepths ? "" : "+")},
+                        {"photons", counts[i]},
+                        {"power", power[i]}});
+    return rows;
+  }
+};
+
+Json describe_photons(const std::string& path, const ToolRun& run) {
+  PhotonReader reader(path);
+  PhotonTally tally;
+  uint64_t done = 0;
+  for (std::vector<Photon> photons; reader.read(&photons); done += photons.size()) {
+    run.stop_if_interrupted();
+    run.control.progress(double(done), 0, "photons");
+    for (const Photon& photon : photons) tally.add(photon);
+  }
+  Json info = head(path, FileKind::photons);
+  add_provenance(info, reader.header().provenance);
+  const PhotonCounts& c = reader.counts();
+  info.update({{"hash", hex(reader.content_hash())},
+               {"pass", reader.header().stream.pass},
+               {"particles", c.emitted},
+               {"photons", c.stored},
+               {"left_scene", c.left_scene},
+               {"absorbed", c.absorbed},
+               {"too_deep", c.too_deep},
+               {"invalid", c.invalid},
+               {"depths", tally.json()}});
+  return info;
+}
+
+Json describe_channels(const Image& image) {
+  Json rows = Json::array();
+  for (size_t c = 0; c < image.channels.size(); ++c) {
+    Range range;
+    for (size_t i = c; i < image.pixels.size(); i += image.channels.size())
+      if (std::isfinite(image.pixels[i])) range.add(image.pixels[i]);
+    Json row = {{"channel", image.channels[c]}};
+    row.update(range.json());
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json describe_image(const std::string& path) {
+  std::map<std::string, std::string> attributes;
+  const Image image = read_image(path, &attributes);
+  Json info = head(path, FileKind::exr);
+  for (const auto& [name, value] : attributes)
+    if (name.starts_with("waylight.")) info[name.substr(9)] = value;
+  info["width"] = image.width;
+  info["height"] = image.height;
+  info["not_finite"] = std::count_if(image.pixels.begin(), image.pixels.end(),
+                                     [](float v) { return !std::isfinite(v); });
+  info["channels"] = describe_channels(image);
+  return info;
+}
+
+}  // namespace
+
+Json describe_content(const std::string& path, FileKind kind, const ToolRun& run) {
+  switch (kind) {
+    case FileKind::brdf:
+      return describe_brdf(path);
+    case FileKind::cache:
+      return describe_cache(path);
+    case FileKind::photons:
+      return describe_photons(path, run);
+    case FileKind::exr:
+      return describe_image(path);
+    case FileKind::unknown:
+      break;
+  }
+  fail("\"{}\": is {}", path, describe(kind));
+}
+
+}  // namespace waylight

@@ -1,0 +1,25 @@
+#pragma once
+// Lobes as pictures: densities on the equal-area disk in false colours.
+
+#include <string>
+
+#include "tools/common/scene_arguments.h"
+
+namespace waylight {
+
+struct LobePlotArguments {
+  std::string target;    // index of a cell, or name or index of a material
+  std::string output;    // picture to write
+  std::string samples;   // photon file, or empty
+  SceneArguments scene;  // path empty: no BSDF beside the fit
+  float elevation = 45;  // of wo, in degrees from the normal
+  int size = 256;        // pixels along the side of one disk
+};
+
+// The mixture of a cell, and the photons that fall into it.
+void plot_cell(const ToolRun& run, const std::string& cache, const LobePlotArguments& arguments);
+
+// The mixture fitted to a material, and the BSDF itself.
+void plot_material(const ToolRun& run, const std::string& brdf, const LobePlotArguments& arguments);
+
+}  // namespace waylight

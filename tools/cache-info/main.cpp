@@ -1,0 +1,53 @@
+// cache-info: what a file of Waylight is, where it comes from, and what is in it.
+
+#include <CLI/CLI.hpp>
+
+#include "tools/cache-info/cache_info_tool.h"
+
+using namespace waylight;
+
+namespace {
+
+constexpr ToolInfo kTool = {
+    "cache-info", "Says what a file is, where it comes from and what is in it",
+    "FILE [--json] [--check] [--plot CELL|MATERIAL -o lobe.png]",
+    R"(FILE is any file of the pipeline: fitted BSDFs, photons, an illumination cache, an image. It is
+known by its content, not by its name.
+
+--plot draws one lobe on the equal-area disk, the upper hemisphere inside the ring: of a cell of an
+illumination cache, given by its number, the mixture and with --samples the photons it saw beside it;
+of a material, given by its name or number, the fit and with --scene the true BSDF beside it. Colours
+are logarithmic, from a ten thousandth of the largest value up.
+
+Examples:
+  cache-info room.cache
+  cache-info room.photons --check
+  cache-info room.cache --plot 17 --samples room.photons -o lobe.png
+  cache-info room.brdf --plot floor --elevation 60 --scene room.xml -o lobe.png)"};
+
+void declare(CLI::App& app, CacheInfoArguments& arguments) {
+  as_input(app.add_option("FILE", arguments.file, "File to look into"))->required();
+  app.add_flag("--json", arguments.json, "Print JSON");
+  app.add_flag("--check", arguments.check, "Verify everything, and say only that it is sound");
+  app.add_option("--plot", arguments.plot.target, "Cell or material to draw")
+      ->type_name("CELL|MATERIAL");
+  as_output(app.add_option("-o,--output", arguments.plot.output, "Picture to draw (.png)"));
+  as_input(app.add_option("--samples", arguments.plot.samples,
+                          "Photon file whose photons are drawn beside the cell's mixture"));
+  app.add_option("--elevation", arguments.plot.elevation,
+                 "Angle of wo from the normal of a material, in degrees")
+      ->check(CLI::Range(0.0, 90.0));
+  app.add_option("--size", arguments.plot.size, "Side of one disk, in pixels")
+      ->check(CLI::Range(32, 4096));
+  add_scene_option(app, arguments.plot.scene, "--scene",
+                   "Scene whose BSDF is drawn beside the material's fit");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CacheInfoArguments arguments;
+  return run_tool(
+      argc, argv, kTool, [&](CLI::App& app) { declare(app, arguments); },
+      [&](ToolRun& run) { cache_info(run, arguments); });
+}
