@@ -162,9 +162,9 @@ void BrdfFitOptions::validate() const {
   require(components >= 1 && components <= GaussianMixture::kMaxComponents,
           "--components {}: must be within 1..8", components);
   require(samples >= 16 && samples <= 65536, "--samples {}: must be within 16..65536", samples);
-  require(prior.v >= 1 && prior.v <= 1e3f, "--prior-v {}: must be within 1..1000", prior.v);
-  require(prior.a > 2 && prior.a <= 1e6f, "--prior-a {}: must be above 2, at most 1e6", prior.a);
-  require(prior.b > 0 && prior.b <= 1, "--prior-b {}: must be above 0, at most 1", prior.b);
+  require(prior.v >= 1 && std::isfinite(prior.v), "prior.v is {}: must be at least 1", prior.v);
+  require(prior.a > 2 && std::isfinite(prior.a), "prior.a is {}: must be above 2", prior.a);
+  require(prior.b > 0 && std::isfinite(prior.b), "prior.b is {}: must be positive", prior.b);
 }
 
 BrdfFitResult fit_brdfs(const SceneDescription& scene, const BrdfFitOptions& options,

@@ -16,7 +16,8 @@ struct BrdfFitOptions {
   int components = 8;    // K before reduction, 1..8
   int samples = 512;     // directions per entry, 16..65536
   uint64_t seed = 0;
-  MixturePrior prior;
+  // Narrower lobes are allowed than a training from photons does: the points are free of noise.
+  MixturePrior prior{1.01f, 2.01f, 5e-6f};
 
   void validate() const;
 };

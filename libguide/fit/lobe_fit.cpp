@@ -27,10 +27,12 @@ WeightedPoint weighted(const LobeTarget& target, const Vec3& wi) {
 
 // K directions of the lobe, the first centres of EM.
 std::vector<Vec2> start_centres(const LobeTargets& targets, const LobeFitOptions& options) {
+  constexpr int kMaxTries = 8;  // a rough lobe throws more than half of its samples below ground
   std::vector<Vec2> centres;
-  for (int k = 0; k < options.components; ++k) {
-    const size_t t = k % targets.size();
-    const std::optional<Vec3> wi = draw(targets[t], options.seed, stream_of(kStartStream, 0), k);
+  const size_t count = options.components;
+  for (size_t i = 0; centres.size() < count && i < kMaxTries * count; ++i) {
+    const LobeTarget& target = targets[i % targets.size()];
+    const auto wi = draw(target, options.seed, stream_of(kStartStream, 0), static_cast<int>(i));
     if (wi) centres.push_back(direction_to_disk(*wi));
   }
   return centres;

@@ -11,7 +11,7 @@ namespace waylight {
 struct LobeFitOptions {
   int components = 8, samples = 512;
   uint64_t seed = 0;
-  MixturePrior prior;
+  MixturePrior prior{1.01f, 2.01f, 5e-6f};
 };
 
 // The targets of one entry: one wo, or several azimuths of an anisotropic lobe, whose mean is
@@ -24,7 +24,9 @@ LobeTargets lobe_targets(const Bsdf& bsdf, float theta, bool anisotropic);
 // cosine-weighted sampler grows as 1 / cos), a share uniform over the hemisphere.
 std::vector<WeightedPoint> lobe_points(const LobeTargets& targets, const LobeFitOptions& options);
 
-// Weighted MAP EM; empty where f is zero everywhere.
+// Weighted MAP EM from one start; empty where f is zero everywhere. Measured over 20 lobes: further
+// starts by k-means++ gain nothing on the mean, four times the points a fifth of the error for four
+// times the time, and more than 32 iterations lose by fitting the points too well.
 std::vector<GaussianComponent> fit_lobe(const LobeTargets& targets, const LobeFitOptions& options);
 
 // The integral of |f - G| over the upper hemisphere, f normalised there and G the mixture's own

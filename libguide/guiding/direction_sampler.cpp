@@ -65,6 +65,7 @@ EvalPdf DirectionSampler::evaluate(const Vec3& wi) const {
   const Vec3 local = resolved_.frame.to_local(wi);
   if (!same_side(wi, local)) return {};
   const EvalPdf e = resolved_.bsdf.evaluate(wo_local_, local);
+  if (is_black(e.value)) return {};
   return {e.value, density(e.pdf, wi)};
 }
 

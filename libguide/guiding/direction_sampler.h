@@ -24,7 +24,8 @@ struct DirectionSample {
 //   p(wi) = (1 - P_delta) [(1 - g) p_bsdf(wi) + g p_guide(wi)],
 // one-sample MIS with g the guiding probability where a guide is at hand and 0 elsewhere, so the
 // density is positive wherever the BSDF's own is. p_guide is a sub-density: what falls below the
-// horizon or outside the plane is a sample of value zero.
+// horizon or outside the plane, or where f is zero, is a sample of value zero. No such sample is
+// returned, and the density is zero there.
 class DirectionSampler {
  public:
   DirectionSampler(const Scene& scene, const GuidingCaches& caches, DirectionGuide guide,

@@ -1,0 +1,204 @@
+// The guided density of a path vertex is what its sampler makes, with fits of many materials and
+// arbitrary light.
+
+#include "libguide/guiding/direction_sampler.h"
+
+#include "common/small_scenes.h"
+#include "libguide/brdf_fit.h"
+#include "statistical/density_assertions.h"
+
+namespace waylight {
+namespace {
+
+using testing::DensityCheck;
+
+// A floor z = 0 whose cache has one cell, tilted against it.
+struct GuidedFloor {
+  Scene scene;
+  BrdfCache brdf;
+  GuideCache guide;
+  GuidingCaches caches;
+
+  GuidedFloor(SceneDescription description, const Vec3& cell_normal,
+              std::vector<GaussianComponent> light)
+      : scene(std::move(description)) {
+    BrdfFitOptions options;
+    options.elevations = 64;
+    brdf = fit_brdfs(scene.description(), options, {}).cache;
+    guide.scene_bounds = scene.bounds();
+    guide.nodes.push_back({});
+    CacheCell cell;
+    cell.normal = cell_normal.normalized();
+    cell.effective_samples = 1000;
+    cell.component_count = static_cast<uint32_t>(light.size());
+    guide.cells.push_back(cell);
+    guide.components = std::move(light);
+    caches = GuidingCaches(&brdf, GuideCacheView(guide), scene.description().materials);
+  }
+
+  SurfacePoint floor_from(const Vec3& wo) const {
+    const Ray ray{3 * wo, -wo};
+    return scene.intersect(ray).value();
+  }
+};
+
+SceneDescription floor_of(const MaterialModel& model) {
+  SceneDescription scene;
+  const int material = testing::add_two_sided(scene, "floor", model);
+  testing::add_shape(scene, testing::rectangle({-20, -20, 0}, {40, 0, 0}, {0, 40, 0}), material);
+  return scene;
+}
+
+RoughConductorMaterial metal(float alpha_u, float alpha_v, MicrofacetDistribution kind) {
+  RoughConductorMaterial m;
+  m.alpha_u = Texture(alpha_u);
+  m.alpha_v = Texture(alpha_v);
+  m.distribution = kind;
+  return m;
+}
+
+std::vector<std::pair<std::string, MaterialModel>> materials() {
+  RoughPlasticMaterial plastic;
+  plastic.alpha = Texture(0.1f);
+  return {{"diffuse", DiffuseMaterial{}},
+          {"ggx 0.3", metal(0.3f, 0.3f, MicrofacetDistribution::ggx)},
+          {"ggx 0.05", metal(0.05f, 0.05f, MicrofacetDistribution::ggx)},
+          {"beckmann 0.15", metal(0.15f, 0.15f, MicrofacetDistribution::beckmann)},
+          {"brushed", metal(0.1f, 0.4f, MicrofacetDistribution::ggx)},
+          {"roughplastic", plastic},
+          {"plastic", PlasticMaterial{}},
+          {"phong", PhongMaterial{}},
+          {"ward", WardMaterial{}}};
+}
+
+// A wide lobe, a narrow one, an elongated one at the horizon of the cell.
+std::vector<GaussianComponent> some_light() {
+  return {{0.4f, 0.1f, -0.2f, 0.09f, 0.02f, 0.06f},
+          {0.25f, -0.55f, 0.1f, 0.002f, 0, 0.003f},
+          {0.35f, 0.3f, 0.85f, 0.04f, -0.01f, 0.01f}};
+}
+
+Vec3 from(float degrees, float azimuth) {
+  const float theta = degrees * kPi / 180;
+  return {std::sin(theta) * std::cos(azimuth), std::sin(theta) * std::sin(azimuth),
+          std::cos(theta)};
+}
+
+void expect_valid(const GuidedFloor& floor, DirectionGuide guide, float prob, const Vec3& wo,
+                  const std::string& name) {
+  const SurfacePoint at = floor.floor_from(wo);
+  const DirectionSampler directions(floor.scene, floor.caches, guide, prob, at, wo);
+  ASSERT_TRUE(directions.guided()) << name;
+  DensityCheck check;
+  check.tests = 120;
+  check.samples = 40000;
+  check.pilot = 4096;
+  check.bins = 96;
+  // Of the smooth part: delta samples are left to their own tests, and `pdf` counts their chance.
+  expect_valid_density(
+      testing::Sphere{}, name,
+      [&](Sampler& sampler) -> std::optional<Vec3> {
+        const float u = sampler.next(), u_lobe = sampler.next();
+        const std::optional<DirectionSample> s = directions.sample(u, u_lobe, sampler.next_2d());
+        if (!s || s->is_delta) return std::nullopt;
+        return s->wi;
+      },
+      [&](const Vec3& wi) { return directions.pdf(wi); }, check);
+}
+
+TEST(DirectionSamplerSlow, GuidedDensitiesAreWhatTheSamplerMakes) {
+  for (const auto& [name, model] : materials()) {
+    const GuidedFloor floor(floor_of(model), {0.3f, -0.2f, 1}, some_light());
+    for (const DirectionGuide guide : {DirectionGuide::illumination, DirectionGuide::product})
+      for (const Vec3& wo : {from(5, 0), from(50, 2), from(80, -1)})
+        expect_valid(
+            floor, guide, 0.5f, wo,
+            fmt::format("{} {} z = {:.2f}", name,
+                        guide == DirectionGuide::product ? "product" : "illumination", wo.z()));
+  }
+}
+
+TEST(DirectionSamplerSlow, DensitiesHoldAtTheEndsOfTheGuidingProbability) {
+  const GuidedFloor floor(floor_of(metal(0.2f, 0.2f, MicrofacetDistribution::ggx)), {0, 0.1f, 1},
+                          some_light());
+  for (const float prob : {0.01f, 0.99f})
+    expect_valid(floor, DirectionGuide::product, prob, from(40, 1), fmt::format("prob {}", prob));
+}
+
+TEST(DirectionSamplerSlow, ABackWithAFitOfItsOwnIsSampledByIt) {
+  SceneDescription scene;
+  const int front = testing::add_material(scene, "front", DiffuseMaterial{});
+  const int back =
+      testing::add_material(scene, "back", metal(0.1f, 0.1f, MicrofacetDistribution::ggx));
+  const int sheet = testing::add_material(scene, "sheet", TwoSidedMaterial{front, back});
+  testing::add_shape(scene, testing::rectangle({-20, -20, 0}, {0, 40, 0}, {40, 0, 0}), sheet);
+  const GuidedFloor floor(std::move(scene), {0.1f, 0, 1}, some_light());  // seen from behind
+  expect_valid(floor, DirectionGuide::product, 0.5f, from(40, 1), "back");
+  const std::span<const GaussianComponent> lobes = floor.caches.brdf_lobes(sheet, true, 0.5f);
+  EXPECT_FALSE(lobes.empty());
+  EXPECT_EQ(lobes.data(), floor.caches.brdf_lobes(back, false, 0.5f).data());
+  EXPECT_NE(lobes.data(), floor.caches.brdf_lobes(sheet, false, 0.5f).data());
+}
+
+// Directions by guide: the mean of the weight is the albedo whatever guides.
+double mean_weight(const GuidedFloor& floor, DirectionGuide guide, const Vec3& wo) {
+  constexpr int kCount = 1 << 16;
+  const DirectionSampler directions(floor.scene, floor.caches, guide, 0.5f, floor.floor_from(wo),
+                                    wo);
+  double sum = 0;
+  for (int i = 0; i < kCount; ++i) {
+    Sampler sampler(9, 9, i);
+    const float u = sampler.next(), u_lobe = sampler.next();
+    const std::optional<DirectionSample> s = directions.sample(u, u_lobe, sampler.next_2d());
+    if (s) sum += s->weight.y() / kCount;
+  }
+  return sum;
+}
+
+TEST(DirectionSamplerSlow, TheReflectedShareDoesNotDependOnTheGuide) {
+  for (const auto& [name, model] : materials()) {
+    const GuidedFloor floor(floor_of(model), {0.3f, -0.2f, 1}, some_light());
+    const double expected = mean_weight(floor, DirectionGuide::none, from(50, 2));
+    for (const DirectionGuide guide : {DirectionGuide::illumination, DirectionGuide::product})
+      EXPECT_NEAR(mean_weight(floor, guide, from(50, 2)), expected, 0.01) << name;
+  }
+}
+
+// E[(f L / p)^2] / E[f L / p]^2 - 1 of samples of one vertex, L the light's own mixture.
+double relative_variance(const GuidedFloor& floor, DirectionGuide guide, const Vec3& wo) {
+  constexpr int kCount = 1 << 15;
+  const DirectionSampler directions(floor.scene, floor.caches, guide, 0.9f, floor.floor_from(wo),
+                                    wo);
+  const GaussianMixture light(floor.guide.components);
+  const Frame cell(floor.guide.cells[0].normal);
+  double sum = 0, squares = 0;
+  for (int i = 0; i < kCount; ++i) {
+    Sampler sampler(9, 9, i);
+    const float u = sampler.next(), u_lobe = sampler.next();
+    const std::optional<DirectionSample> s = directions.sample(u, u_lobe, sampler.next_2d());
+    if (!s) continue;
+    // The mixture stands for L cos: the cosine is already in the weight.
+    const double radiance =
+        light.pdf(direction_to_disk(cell.to_local(s->wi))) / std::max(s->wi.z(), 0.01f);
+    const double value = s->weight.y() * radiance;
+    sum += value / kCount, squares += value * value / kCount;
+  }
+  return squares / (sum * sum) - 1;
+}
+
+TEST(DirectionSamplerSlow, TheProductOfFitAndLightLowersTheVarianceOfAVertex) {
+  for (const float alpha : {0.3f, 0.1f}) {
+    const GuidedFloor floor(floor_of(metal(alpha, alpha, MicrofacetDistribution::beckmann)),
+                            {0.3f, -0.2f, 1}, some_light());
+    for (const Vec3& wo : {from(20, 0.5f), from(50, 2)}) {
+      const double none = relative_variance(floor, DirectionGuide::none, wo);
+      const double light = relative_variance(floor, DirectionGuide::illumination, wo);
+      const double product = relative_variance(floor, DirectionGuide::product, wo);
+      EXPECT_LT(product, 0.5 * std::min(none, light))
+          << "alpha " << alpha << " z " << wo.z() << ": " << none << " " << light;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace waylight

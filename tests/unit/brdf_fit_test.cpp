@@ -1,0 +1,398 @@
+// Fitted mixtures are close to f, whatever the lobe; and the stage says what it left out and why.
+
+#include "libguide/brdf_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "common/small_scenes.h"
+#include "libguide/base/error.h"
+#include "libguide/base/parallel.h"
+#include "libguide/base/sampler.h"
+#include "libguide/bsdf/bsdf.h"
+#include "libguide/bsdf/lobe_traits.h"
+#include "libguide/directional/gaussian_product.h"
+#include "libguide/fit/lobe_fit.h"
+
+namespace waylight {
+namespace {
+
+constexpr MicrofacetDistribution kGgx = MicrofacetDistribution::ggx;
+constexpr MicrofacetDistribution kBeckmann = MicrofacetDistribution::beckmann;
+
+// A scene in which every material is shown by a sphere.
+SceneDescription shown(const std::vector<MaterialModel>& models) {
+  SceneDescription scene;
+  for (const MaterialModel& model : models)
+    testing::add_shape(
+        scene, Sphere{},
+        testing::add_material(scene, fmt::format("m{}", scene.materials.size()), model));
+  return scene;
+}
+
+RoughConductorMaterial metal(float alpha, MicrofacetDistribution kind = kGgx) {
+  RoughConductorMaterial m;
+  m.eta = Color(1.66f, 0.88f, 0.52f);
+  m.k = Color(9.2f, 6.3f, 4.8f);
+  m.alpha_u = m.alpha_v = Texture(alpha);
+  m.distribution = kind;
+  return m;
+}
+
+BrdfFitResult fit(const SceneDescription& scene, int elevations, const RunControl& control = {}) {
+  BrdfFitOptions options;
+  options.elevations = elevations;
+  return fit_brdfs(scene, options, control);
+}
+
+BrdfCache fit(const MaterialModel& model, int elevations) {
+  return fit(shown({model}), elevations).cache;
+}
+
+GaussianMixture mixture(const BrdfCache& cache, const BrdfCacheEntry& entry) {
+  return GaussianMixture(
+      std::span(cache.components).subspan(entry.first_component, entry.component_count));
+}
+
+Vec3 wo_of(size_t entry, size_t count) {
+  const float theta = (entry + 0.5f) / count * 0.5f * kPi;
+  return {std::sin(theta), 0, std::cos(theta)};
+}
+
+Vec2 mean_of(const GaussianMixture& mixture) {
+  Vec2 mean = Vec2::Zero();
+  for (int k = 0; k < mixture.count(); ++k) {
+    const GaussianComponent c = mixture.component(k);
+    mean += c.weight * Vec2(c.mean_x, c.mean_y);
+  }
+  return mean;
+}
+
+// The centroid of f on the disk, by a fine sum over the BSDF's own samples and the hemisphere.
+Vec2 centroid_of(const Bsdf& bsdf, const Vec3& wo) {
+  constexpr int kCount = 1 << 16;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double total = 0;
+  for (int i = 0; i < kCount; ++i) {
+    Sampler sampler(3, 4, i);
+    const float u = sampler.next();
+    const Vec2 u2 = sampler.next_2d();
+    Vec3 wi = disk_to_direction(square_to_disk(u2));
+    if (i % 2 == 0) {
+      const std::optional<BsdfSample> s = bsdf.sample(wo, u, u2);
+      if (!s) continue;
+      wi = s->wi;
+    }
+    const EvalPdf e = bsdf.evaluate(wo, wi);
+    if (!(wi.z() > 1e-5f)) continue;
+    const double w = luminance(e.value) / wi.z() / (e.pdf + 0.5f * kInvPi);
+    sum += w * direction_to_disk(wi).cast<double>();
+    total += w;
+  }
+  return (sum / total).cast<float>();
+}
+
+// Components of a mixture of equal density over the disk for a photon density Li cos.
+std::vector<GaussianComponent> cosine_mixture() {
+  std::vector<WeightedPoint> points;
+  for (int i = 0; i < 16384; ++i)
+    points.push_back(
+        {direction_to_disk(square_to_cosine_hemisphere(Sampler(5, 6, i).next_2d())), 1});
+  return fit_mixture(points, {}).components;
+}
+
+// Mean |a - b| over the unit disk, both per unit area of it.
+template <typename A, typename B>
+double disk_distance(const A& a, const B& b) {
+  constexpr int kCount = 1 << 14;
+  double sum = 0;
+  for (int i = 0; i < kCount; ++i) {
+    const Vec2 y = square_to_disk(Sampler(7, 8, i).next_2d());
+    sum += std::abs(a(y) - b(y)) * kPi / kCount;
+  }
+  return sum;
+}
+
+TEST(BrdfFit, DiffuseTimesUniformRadianceIsTheCosineDensity) {
+  const BrdfCache cache = fit(DiffuseMaterial{}, 16);
+  ASSERT_EQ(cache.entries.size(), 1u);
+  const GaussianMixture brdf = mixture(cache, cache.entries[0]);
+  const GaussianMixture light(cosine_mixture());
+  const GaussianProduct product(brdf, light);
+  ASSERT_TRUE(product.valid());
+  const auto cosine = [](const Vec2& y) {
+    return cosine_hemisphere_pdf(disk_to_direction(y)) * kSteradianPerDiskArea;
+  };
+  const auto of_product = [&](const Vec2& y) { return product.pdf(y); };
+  const auto squared = [&](const Vec2& y) { return 1.5f * kInvPi * 2 * sqr(1 - y.squaredNorm()); };
+  // Counted twice, the cosine would give its square.
+  EXPECT_LT(disk_distance(of_product, cosine), 0.25);
+  EXPECT_LT(disk_distance(of_product, cosine), 0.6 * disk_distance(of_product, squared));
+}
+
+TEST(BrdfFit, DiffuseIsFlatAwayFromTheRim) {
+  const BrdfCache cache = fit(DiffuseMaterial{}, 16);
+  const GaussianMixture brdf = mixture(cache, cache.entries[0]);
+  EXPECT_LT(cache.entries[0].held_out_error, 0.26f);
+  double sum = 0;
+  constexpr int kCount = 4096;
+  for (int i = 0; i < kCount; ++i)
+    sum += brdf.pdf(0.7f * square_to_disk(Sampler(1, 1, i).next_2d())) / kCount;
+  EXPECT_NEAR(sum, kInvPi, 0.1 * kInvPi);
+}
+
+TEST(BrdfFit, RoughConductorsAreFittedToAStatedError) {
+  // The mean over elevations, and the worst elevation up to 75 degrees.
+  const struct {
+    float alpha, mean, worst;
+  } cases[] = {{0.3f, 0.22f, 0.25f}, {0.15f, 0.18f, 0.21f}, {0.05f, 0.15f, 0.19f}};
+  for (const auto& c : cases) {
+    const BrdfFitResult result = fit(shown({metal(c.alpha)}), 18);
+    EXPECT_LT(result.summary.materials[0].held_out_error, c.mean) << "alpha " << c.alpha;
+    for (int i = 0; i < 15; ++i)
+      EXPECT_LT(result.cache.entries[i].held_out_error, c.worst)
+          << "alpha " << c.alpha << " elevation " << i;
+  }
+}
+
+TEST(BrdfFit, TheMeanOfTheMixtureIsTheCentroidOfF) {
+  for (const float alpha : {0.3f, 0.15f, 0.05f}) {
+    const SceneDescription scene = shown({metal(alpha)});
+    const BrdfCache cache = fit(scene, 9).cache;
+    const Bsdf bsdf = resolve_mean(scene.materials, 0);
+    for (size_t i = 0; i < cache.entries.size(); ++i) {
+      const Vec2 mean = mean_of(mixture(cache, cache.entries[i]));
+      const Vec2 expected = centroid_of(bsdf, wo_of(i, cache.entries.size()));
+      EXPECT_LT((mean - expected).norm(), 0.02f + 0.1f * alpha) << alpha << " entry " << i;
+    }
+  }
+}
+
+TEST(BrdfFit, ANarrowLobeLiesAtTheMirrorDirection) {
+  const BrdfCache cache = fit(metal(0.01f, kBeckmann), 9);
+  for (size_t i = 0; i + 1 < cache.entries.size(); ++i) {
+    const Vec3 wo = wo_of(i, cache.entries.size());
+    const Vec2 mirror = direction_to_disk({-wo.x(), 0, wo.z()});
+    EXPECT_LT((mean_of(mixture(cache, cache.entries[i])) - mirror).norm(), 0.01f) << i;
+  }
+}
+
+// |f - G| summed on a polar grid about the mirror direction, for an isotropic narrow lobe.
+double error_by_quadrature(const Bsdf& bsdf, const Vec3& wo, const GaussianMixture& g) {
+  constexpr int kCount = 400;
+  const Vec2 mirror = direction_to_disk({-wo.x(), -wo.y(), wo.z()});
+  double total = 0, difference = 0;
+  std::vector<std::pair<double, double>> values;
+  std::vector<double> areas;
+  for (int i = 0; i < kCount; ++i) {
+    const double inner = 2 * std::pow(double(i) / kCount, 5);
+    const double outer = 2 * std::pow(double(i + 1) / kCount, 5), r = 0.5 * (inner + outer);
+    for (int j = 0; j < 64; ++j) {
+      const double phi = 2 * std::numbers::pi * (j + 0.5) / 64;
+      const Vec2 y = mirror + Eigen::Vector2d(r * std::cos(phi), r * std::sin(phi)).cast<float>();
+      if (y.squaredNorm() >= 1) continue;
+      const Vec3 wi = disk_to_direction(y);
+      values.push_back({luminance(bsdf.eval(wo, wi)) / wi.z(), g.pdf(y)});
+      areas.push_back(std::numbers::pi * (outer * outer - inner * inner) / 64);
+    }
+  }
+  for (size_t i = 0; i < values.size(); ++i) total += values[i].first * areas[i];
+  for (size_t i = 0; i < values.size(); ++i)
+    difference += std::abs(values[i].first / total - values[i].second) * areas[i];
+  return difference;
+}
+
+TEST(BrdfFit, TheHeldOutErrorIsThatOfQuadratureAtAnyWidth) {
+  for (const float alpha : {0.001f, 0.01f, 0.1f, 0.5f}) {
+    const SceneDescription scene = shown({metal(alpha)});
+    const BrdfCache cache = fit(scene, 5).cache;
+    const Bsdf bsdf = resolve_mean(scene.materials, 0);
+    for (int i = 0; i < 4; ++i) {
+      const GaussianMixture g = mixture(cache, cache.entries[i]);
+      EXPECT_NEAR(cache.entries[i].held_out_error, error_by_quadrature(bsdf, wo_of(i, 5), g), 0.03)
+          << "alpha " << alpha << " entry " << i;
+    }
+  }
+}
+
+std::vector<MaterialModel> all_kinds() {
+  std::vector<MaterialModel> models;
+  for (const MicrofacetDistribution kind : {kGgx, kBeckmann}) {
+    for (const float alpha : {0.001f, 0.01f, 0.1f, 1.0f}) models.push_back(metal(alpha, kind));
+    RoughPlasticMaterial plastic;
+    plastic.distribution = kind;
+    for (const float alpha : {0.01f, 0.3f}) {
+      plastic.alpha = Texture(alpha);
+      models.push_back(plastic);
+    }
+    RoughConductorMaterial brushed = metal(0.01f, kind);
+    brushed.alpha_v = Texture(1.0f);
+    models.push_back(brushed);
+  }
+  for (const float exponent : {0.0f, 30.0f, 1e6f}) {
+    PhongMaterial phong;
+    phong.exponent = Texture(exponent);
+    models.push_back(phong);
+  }
+  for (const auto variant : {WardMaterial::Variant::ward, WardMaterial::Variant::ward_duer,
+                             WardMaterial::Variant::balanced}) {
+    WardMaterial ward;
+    ward.variant = variant;
+    models.push_back(ward);
+  }
+  models.push_back(PlasticMaterial{});
+  return models;
+}
+
+void expect_finite_fit(const LobeTargets& targets, const std::string& name) {
+  const std::vector<GaussianComponent> components = fit_lobe(targets, {});
+  const GaussianMixture mixture(components);
+  ASSERT_GT(mixture.count(), 0) << name;
+  ASSERT_EQ(mixture.count(), static_cast<int>(components.size())) << name;
+  for (const GaussianComponent& c : components)
+    for (const float v : {c.weight, c.mean_x, c.mean_y, c.cov_xx, c.cov_xy, c.cov_yy})
+      ASSERT_TRUE(std::isfinite(v)) << name;
+  const float error = held_out_error(targets, mixture, 0);
+  ASSERT_GE(error, 0) << name;
+  ASSERT_LE(error, 2) << name;
+}
+
+TEST(BrdfFit, EveryLobeGivesAFiniteMixtureUpToGrazingElevations) {
+  const SceneDescription scene = shown(all_kinds());
+  for (size_t m = 0; m < scene.materials.size(); ++m) {
+    const Bsdf bsdf = resolve_mean(scene.materials, static_cast<int>(m));
+    const bool anisotropic = lobe_traits(scene.materials, static_cast<int>(m)).anisotropic;
+    for (const float degrees : {0.1f, 30.0f, 60.0f, 80.0f, 89.0f, 89.9f, 89.99f})
+      expect_finite_fit(
+          lobe_targets(bsdf, degrees * kPi / 180, anisotropic),
+          fmt::format("{} {} from {}", material_kind(scene.materials[m]), m, degrees));
+  }
+}
+
+TEST(BrdfFit, TexturedMaterialsAreFittedAtTheirMeanAndSaySo) {
+  DiffuseMaterial checked;
+  checked.reflectance.source =
+      CheckerboardTexture{Color(0.1f, 0.1f, 0.1f), Color(0.9f, 0.5f, 0.2f)};
+  std::vector<std::string> warnings;
+  RunControl control;
+  control.on_warning = [&](const std::string& message) { warnings.push_back(message); };
+  const BrdfFitResult result = fit(shown({checked, DiffuseMaterial{}}), 4, control);
+  EXPECT_TRUE(result.cache.materials[0].textured);
+  EXPECT_FALSE(result.cache.materials[1].textured);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0], "material \"m0\" is textured: fitted at mean parameters");
+}
+
+TEST(BrdfFit, AnisotropicLobesAreFittedToTheirMeanAndSaySo) {
+  RoughConductorMaterial brushed = metal(0.05f);
+  brushed.alpha_v = Texture(0.4f);
+  std::vector<std::string> warnings;
+  RunControl control;
+  control.on_warning = [&](const std::string& message) { warnings.push_back(message); };
+  const BrdfFitResult result = fit(shown({brushed}), 4, control);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("mean over all azimuths"), std::string::npos);
+  // Mirror symmetry about the plane of wo.
+  for (const BrdfCacheEntry& entry : result.cache.entries)
+    EXPECT_NEAR(mean_of(mixture(result.cache, entry)).y(), 0, 0.05f);
+}
+
+TEST(BrdfFit, MaterialsWithoutAFitAreListedWithTheReason) {
+  const BrdfFitResult result =
+      fit(shown({ConductorMaterial{}, DielectricMaterial{}, NullMaterial{},
+                 RoughDielectricMaterial{}, DiffuseMaterial{Texture(0.0f)}}),
+          4);
+  EXPECT_TRUE(result.cache.materials.empty());
+  EXPECT_EQ(result.summary.skipped,
+            (std::vector<std::string>{
+                "m0 (conductor): delta lobes only", "m1 (dielectric): delta lobes only",
+                "m2 (null): nothing to scatter light",
+                "m3 (roughdielectric): rough transmission is sampled by the BSDF alone",
+                "m4 (diffuse): black"}));
+}
+
+TEST(BrdfFit, OnlyMaterialsThatShapesShowAreFitted) {
+  SceneDescription scene;
+  testing::add_material(scene, "unused", DiffuseMaterial{});
+  testing::add_shape(scene, Sphere{}, testing::add_two_sided(scene, "wall", metal(0.2f)));
+  const BrdfCache cache = fit(scene, 4).cache;
+  ASSERT_EQ(cache.materials.size(), 1u);
+  EXPECT_EQ(cache.materials[0].name, "wall");
+  EXPECT_EQ(cache.materials[0].material, 2u);
+  EXPECT_EQ(cache.materials[0].kind, "twosided");
+}
+
+TEST(BrdfFit, ABackThatDiffersHasAFitOfItsOwn) {
+  SceneDescription scene;
+  const int front = testing::add_material(scene, "front", DiffuseMaterial{});
+  const int back = testing::add_material(scene, "back", metal(0.2f));
+  const int wall = testing::add_material(scene, "wall", TwoSidedMaterial{front, back});
+  testing::add_shape(scene, Sphere{}, wall);
+  const BrdfCache cache = fit(scene, 4).cache;
+  ASSERT_EQ(cache.materials.size(), 2u);
+  EXPECT_EQ(cache.materials[0].name, "back");
+  EXPECT_EQ(cache.materials[0].entry_count, 4u);
+  EXPECT_EQ(cache.materials[1].name, "wall");
+  EXPECT_EQ(cache.materials[1].entry_count, 1u);
+}
+
+TEST(BrdfFit, EqualMaterialsShareTheirEntries) {
+  const BrdfFitResult result = fit(shown({metal(0.2f), metal(0.3f), metal(0.2f)}), 4);
+  const std::vector<MaterialFit>& fits = result.cache.materials;
+  ASSERT_EQ(fits.size(), 3u);
+  EXPECT_EQ(result.cache.entries.size(), 8u);
+  EXPECT_EQ(fits[0].first_entry, fits[2].first_entry);
+  EXPECT_NE(fits[0].first_entry, fits[1].first_entry);
+  EXPECT_EQ(result.summary.materials[2].shares_with, "m0");
+  EXPECT_EQ(result.summary.materials[2].bytes, 0u);
+}
+
+TEST(BrdfFit, TheResultIsTheSameAtAnyThreadCount) {
+  const SceneDescription scene = shown({metal(0.1f), PhongMaterial{}, DiffuseMaterial{}});
+  const auto with_threads = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return fit(scene, 16).cache;
+  };
+  const BrdfCache one = with_threads(1), two = with_threads(2);
+  ASSERT_EQ(one.components.size(), two.components.size());
+  EXPECT_EQ(std::memcmp(one.components.data(), two.components.data(),
+                        one.components.size() * sizeof(GaussianComponent)),
+            0);
+  EXPECT_EQ(std::memcmp(one.entries.data(), two.entries.data(),
+                        one.entries.size() * sizeof(BrdfCacheEntry)),
+            0);
+}
+
+TEST(BrdfFit, AStoppedRunKeepsCompleteMaterialsOnly) {
+  std::atomic<bool> stop{false};
+  RunControl control;
+  control.stop = &stop;
+  control.on_progress = [&](double, double, const char*) { stop = true; };
+  const BrdfFitResult result = fit(shown({metal(0.1f), metal(0.2f), metal(0.1f)}), 200, control);
+  ASSERT_EQ(result.cache.materials.size(), 2u);  // the third shares with the first
+  EXPECT_EQ(result.cache.entries.size(), 200u);
+  EXPECT_EQ(result.summary.skipped, std::vector<std::string>{"m1 (roughconductor): interrupted"});
+}
+
+TEST(BrdfFitOptionsTest, ValidateNamesTheField) {
+  const auto message = [](const auto& change) -> std::string {
+    BrdfFitOptions options;
+    change(options);
+    try {
+      options.validate();
+    } catch (const Misuse& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message([](BrdfFitOptions&) {}), "");
+  EXPECT_NE(message([](auto& o) { o.elevations = 0; }).find("--elevations 0"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.components = 9; }).find("--components 9"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.samples = 15; }).find("--samples 15"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.prior.a = 2; }).find("prior.a is 2"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.prior.b = NAN; }).find("prior.b is nan"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace waylight
