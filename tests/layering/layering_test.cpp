@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 // Rank of each folder of libguide; a file may include its own rank and those below. Folders of
 // equal rank do not know each other.
 const std::map<std::string, int> kRanks = {
-    {"base", 0},    {"math", 0},    {"directional", 3}, {"spatial", 3}, {"image", 3},
+    {"base", 0},    {"math", 0},    {"directional", 3}, {"spatial", 1}, {"image", 3},
     {"records", 2}, {"bsdf", 5},    {"medium", 5},      {"scene", 6},   {"cache", 6},
     {"fit", 8},     {"guiding", 8}, {"transport", 9},   {"", 10}};  // "": the stage headers
 
@@ -72,10 +72,11 @@ TEST(Layering, LibguideKnowsNoFileFormatAndNoTool) {
 
 TEST(Layering, FormatsDoNotKnowTheTools) {
   for (const fs::directory_entry& entry :
-       fs::recursive_directory_iterator(fs::path(WAYLIGHT_SOURCE_DIR) / "formats"))
-    if (entry.is_regular_file())
-      for (const std::string& include : includes_of(entry.path()))
-        EXPECT_FALSE(include.starts_with("tools/")) << entry.path();
+       fs::recursive_directory_iterator(fs::path(WAYLIGHT_SOURCE_DIR) / "formats")) {
+    if (!entry.is_regular_file()) continue;
+    for (const std::string& include : includes_of(entry.path()))
+      EXPECT_FALSE(include.starts_with("tools/")) << entry.path();
+  }
 }
 
 }  // namespace
