@@ -1,10 +1,9 @@
 // Whatever happens to a file, its reader says so or finds valid content.
 
-#include <flatbuffers/flatbuffers.h>
-
 #include <functional>
 
 #include "formats/file_kind.h"
+#include "formats/flat_file.h"
 #include "formats/image_io.h"
 #include "formats/small_caches.h"
 #include "formats/temporary_files.h"
@@ -182,6 +181,28 @@ TEST_F(Damage, StreamsWithoutEndOrWithMoreAfterItAreRefused) {
   EXPECT_TRUE(mentions(message(bytes.substr(0, block) + bytes.substr(end)), "its end says 50"));
   const std::string huge = bytes.substr(0, block) + std::string("\xff\xff\xff\x7f") + bytes;
   EXPECT_TRUE(mentions(message(huge), "a chunk of 2147483647 bytes"));
+}
+
+TEST_F(Damage, FilesBeyondTwoGiBAreRefusedOnBothSides) {
+  for (const Reader& reader : {kReaders[0], kReaders[1], kReaders[2]}) {
+    std::filesystem::resize_file(put("huge", good(reader)), uintmax_t{1} << 31);  // sparse
+    EXPECT_TRUE(mentions(error_of([&] { reader.read(path("huge")); }), "larger than 2 GiB"));
+  }
+  check_flat_size("x", 2'000'000'000, "make less");
+  const std::string message = error_of([] { check_flat_size("x", 3'000'000'000, "make less"); });
+  EXPECT_TRUE(mentions(message, "\"x\": 2.8 GiB do not fit")) << message;
+  EXPECT_TRUE(mentions(message, "make less")) << message;
+}
+
+TEST(FlatStrings, StopsWhenTextIsLongerThanItsBuffer) {
+  flatbuffers::FlatBufferBuilder builder;
+  builder.Finish(builder.CreateString("ten bytes!"));
+  const auto* text = flatbuffers::GetRoot<flatbuffers::String>(builder.GetBufferPointer());
+  const std::string path = "x";
+  FlatStrings strings(25, path);
+  EXPECT_EQ(strings(nullptr), "");
+  EXPECT_EQ(strings(text) + strings(text), "ten bytes!ten bytes!");
+  EXPECT_TRUE(mentions(error_of([&] { strings(text); }), "more text than bytes"));
 }
 
 TEST(RequireSameScene, NamesWhatDiffersAndTheRemedy) {

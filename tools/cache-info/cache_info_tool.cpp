@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "formats/file_kind.h"
@@ -23,6 +24,8 @@ void validate(const CacheInfoArguments& arguments, FileKind kind) {
           "--scene belongs to the --plot of a BRDF cache");
   require(plot.target.empty() || kind == FileKind::cache || kind == FileKind::brdf,
           "--plot draws lobes of caches, and \"{}\" is {}", arguments.file, describe(kind));
+  if (kind == FileKind::unknown && std::filesystem::is_empty(arguments.file))
+    fail("\"{}\": is empty", arguments.file);
   if (kind == FileKind::unknown)
     fail("\"{}\": is {} (fitted BSDFs, photons, an illumination cache or an EXR image)",
          arguments.file, describe(kind));

@@ -41,10 +41,8 @@ class Range {
   double sum_ = 0, least_ = 0, largest_ = 0;
 };
 
-Json head(const std::string& path, FileKind kind) {
-  return {{"file", file_name(path)},
-          {"kind", describe(kind)},
-          {"bytes", std::filesystem::file_size(path)}};
+Json head(const std::string& path, const char* kind) {
+  return {{"file", file_name(path)}, {"kind", kind}, {"bytes", std::filesystem::file_size(path)}};
 }
 
 void add_provenance(Json& info, const Provenance& p) {
@@ -76,7 +74,7 @@ Json describe_material(const MaterialFit& fit, const BrdfCache& cache) {
 
 Json describe_brdf(const std::string& path) {
   const BrdfFile file = read_brdf(path);
-  Json info = head(path, FileKind::brdf);
+  Json info = head(path, "brdf");
   add_provenance(info, file.provenance);
   const BrdfCache& cache = file.cache;
   info["entries"] = cache.entries.size();
@@ -120,7 +118,7 @@ Json describe_training(const GuideCache& cache) {
 Json describe_cache(const std::string& path) {
   const CacheFile file = read_cache(path);
   const GuideCache& cache = file.cache;
-  Json info = head(path, FileKind::cache);
+  Json info = head(path, "cache");
   add_provenance(info, file.provenance);
   info.update({{"passes", cache.passes},
                {"particles", cache.emitted},
@@ -161,7 +159,7 @@ Json describe_photons(const std::string& path, const ToolRun& run) {
     run.control.progress(double(done), 0, "photons");
     for (const Photon& photon : photons) tally.add(photon);
   }
-  Json info = head(path, FileKind::photons);
+  Json info = head(path, "photons");
   add_provenance(info, reader.header().provenance);
   const PhotonCounts& c = reader.counts();
   info.update({{"hash", hex(reader.content_hash())},
@@ -192,7 +190,7 @@ Json describe_channels(const Image& image) {
 Json describe_image(const std::string& path) {
   std::map<std::string, std::string> attributes;
   const Image image = read_image(path, &attributes);
-  Json info = head(path, FileKind::exr);
+  Json info = head(path, "exr");
   for (const auto& [name, value] : attributes)
     if (name.starts_with("waylight.")) info[name.substr(9)] = value;
   info["width"] = image.width;
