@@ -15,10 +15,10 @@ enum class DirectLight { keep, drop };  // photons straight from an emitter: NEE
 
 struct CacheTrainOptions {
   int components = 8;           // K, 1..8
-  int photons_per_cell = 4000;  // a cell that saw more is split, 64..10^7
+  int photons_per_cell = 1000;  // a cell that saw more is split, 64..10^7
   int max_cells = 200'000;      // 1..10^7
   float normal_spread = 0.9f;   // cells whose mean normal is shorter are split by orientation
-  DirectLight direct = DirectLight::keep;
+  DirectLight direct = DirectLight::drop;
   MixturePrior prior;
 
   void validate() const;

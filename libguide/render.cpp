@@ -21,8 +21,10 @@ void RenderOptions::validate() const {
       "--size must be WIDTHxHEIGHT with both in [1, 65536]");
   require(max_depth >= -2 && max_depth != 0, "--max-depth must be at least 1, or -1 for no limit");
   require(rr_depth >= -1, "--rr-depth must not be negative");
-  require(guiding_prob >= 0 && guiding_prob <= 0.99f, "--guiding-prob must be in [0, 0.99], not {}",
-          guiding_prob);
+  require(roulette != RouletteMode::guided || mode != RenderMode::bsdf,
+          "--rr guided needs the cache of --mode illumination or product");
+  require(guiding_prob == -1 || (guiding_prob >= 0 && guiding_prob <= 0.99f),
+          "--guiding-prob must be in [0, 0.99], or -1 for the mode's own, not {}", guiding_prob);
 }
 
 namespace {
@@ -62,13 +64,29 @@ FilmDescription film_of(const FilmDescription& scene_film, const RenderOptions& 
   return film;
 }
 
+Roulette roulette_of(const RenderOptions& options) {
+  switch (options.roulette) {
+    case RouletteMode::none:
+      return Roulette::none;
+    case RouletteMode::throughput:
+      return Roulette::throughput;
+    case RouletteMode::guided:
+      return Roulette::guided;
+    case RouletteMode::automatic:
+      break;
+  }
+  return options.mode == RenderMode::bsdf ? Roulette::throughput : Roulette::guided;
+}
+
 PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& options) {
   const IntegratorDefaults& defaults = scene.description().integrator;
   PathTracerOptions result;
   result.guide = options.mode == RenderMode::bsdf           ? DirectionGuide::none
                  : options.mode == RenderMode::illumination ? DirectionGuide::illumination
                                                             : DirectionGuide::product;
-  result.guiding_prob = options.guiding_prob;
+  const float own_prob = options.mode == RenderMode::product ? 0.7f : 0.5f;
+  result.guiding_prob = options.guiding_prob < 0 ? own_prob : options.guiding_prob;
+  result.roulette = roulette_of(options);
   result.max_depth = options.max_depth == -2 ? defaults.max_depth : options.max_depth;
   result.rr_depth = options.rr_depth == -1 ? defaults.rr_depth : options.rr_depth;
   result.hide_emitters = defaults.hide_emitters;

@@ -29,6 +29,7 @@ void DirectionSampler::prepare_guide(const GuidingCaches& caches, DirectionGuide
     guiding_prob_ = 0;
     return;
   }
+  irradiance_ = cell->irradiance;
   cell_frame_ = Frame(cell->normal);
   light_ = caches.guide().mixture(*cell);
   if (light_.count() == 0 ||
@@ -50,9 +51,7 @@ bool DirectionSampler::prepare_product(const GuidingCaches& caches, int material
   rotation.col(0) = cell_frame_.to_local(fit.s);
   rotation.col(1) = cell_frame_.to_local(fit.t);
   rotation.col(2) = cell_frame_.to_local(fit.n);
-  std::array<GaussianComponent, GaussianMixture::kMaxComponents> carried;
-  for (size_t i = 0; i < lobes.size(); ++i) carried[i] = carry(lobes[i], rotation);
-  brdf_ = GaussianMixture(std::span<const GaussianComponent>(carried.data(), lobes.size()));
+  brdf_ = GaussianMixture(lobes).carried(rotation);
   product_.emplace(brdf_, light_);
   return product_->valid();
 }

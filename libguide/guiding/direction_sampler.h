@@ -41,6 +41,11 @@ class DirectionSampler {
 
   bool has_smooth() const { return has_smooth_; }
   bool guided() const { return guiding_prob_ > 0; }
+  // Luminance of the radiance that the surface reflects towards wo, as the cell's irradiance on a
+  // diffuse surface of equal albedo would have it; 0 where no cell is known.
+  float reflected_estimate() const {
+    return irradiance_ * kInvPi * luminance(resolved_.bsdf.mean_reflectance());
+  }
   const ResolvedBsdf& resolved() const { return resolved_; }
 
  private:
@@ -62,6 +67,7 @@ class DirectionSampler {
   bool has_smooth_ = false;
   float delta_prob_ = 0;
   float guiding_prob_ = 0;
+  float irradiance_ = 0;  // of the cell; 0 where none is known
   Frame cell_frame_;
   GaussianMixture light_;
   GaussianMixture brdf_;

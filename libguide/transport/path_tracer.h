@@ -7,9 +7,15 @@
 
 namespace waylight {
 
+// Russian roulette. throughput: by what BSDF sampling would have made of the throughput, after
+// rr_depth edges. guided: by the path's expected contribution, as caches have it, over that of its
+// first vertex with a cache [Vorba, Krivanek 2016]; by throughput where no cache is known.
+enum class Roulette { none, throughput, guided };
+
 struct PathTracerOptions {
   DirectionGuide guide = DirectionGuide::none;
   float guiding_prob = 0.5f;
+  Roulette roulette = Roulette::throughput;
   int max_depth = -1;          // path edges; -1 no limit
   int rr_depth = 5;            // path edges before Russian roulette
   bool hide_emitters = false;  // emitters and environment are invisible to the camera itself
@@ -42,7 +48,9 @@ class PathTracer {
   void add_environment(State& state) const;
   void add_direct_light(State& state, const SurfacePoint& at, const DirectionSampler& directions,
                         Sampler& sampler) const;
-  bool survives(State& state, Sampler& sampler) const;
+  static bool play(State& state, float survival_prob, Sampler& sampler);
+  bool survives_guided(State& state, const DirectionSampler& directions, Sampler& sampler) const;
+  bool survives_throughput(State& state, Sampler& sampler) const;
 
   const Scene& scene_;
   const GuidingCaches& caches_;

@@ -45,7 +45,7 @@ const Scene& scene() {
 
 const PathTracer& tracer() {
   static const GuidingCaches none;
-  static const PathTracer made(scene(), none, {DirectionGuide::none, 0.5f, 10, 5});
+  static const PathTracer made(scene(), none, {.max_depth = 10});
   return made;
 }
 

@@ -34,9 +34,10 @@ Trained train(const Scene& scene, uint64_t photons) {
 }
 
 Image render_mode(const Scene& scene, const Trained& trained, RenderMode mode, int spp,
-                  uint64_t seed, RenderSummary* summary = nullptr, int rr_depth = -1) {
+                  uint64_t seed, RenderSummary* summary = nullptr,
+                  RouletteMode roulette = RouletteMode::automatic) {
   RenderOptions options;
-  options.rr_depth = rr_depth;
+  options.roulette = roulette;
   options.mode = mode;
   options.spp = spp;
   options.seed = seed;
@@ -103,7 +104,7 @@ TEST_F(SlowRenderModes, ProductGuidingHasTheMeanOfPathTracing) {
 // Without roulette: from the fifth edge on it kills four paths of five, and its own variance, which
 // no choice of directions changes, is then about two thirds of all.
 TEST_F(SlowRenderModes, GuidingLowersTheErrorOfLightThroughAGap) {
-  const int no_roulette = scene->description().integrator.max_depth;
+  const RouletteMode no_roulette = RouletteMode::none;
   RenderSummary bsdf, illumination, product;
   render_mode(*scene, *trained, RenderMode::bsdf, 256, 5, &bsdf, no_roulette);
   render_mode(*scene, *trained, RenderMode::illumination, 256, 5, &illumination, no_roulette);
@@ -111,6 +112,17 @@ TEST_F(SlowRenderModes, GuidingLowersTheErrorOfLightThroughAGap) {
   EXPECT_LT(illumination.estimated_relmse, 0.5 * bsdf.estimated_relmse);
   EXPECT_LT(product.estimated_relmse, 0.4 * bsdf.estimated_relmse);
   EXPECT_GT(product.guiding_share, 0.8);
+}
+
+TEST_F(SlowRenderModes, GuidedRouletteEndsPathsAndSavesMoreThanItCosts) {
+  RenderSummary guided, none, throughput;
+  render_mode(*scene, *trained, RenderMode::product, 256, 5, &guided, RouletteMode::guided);
+  render_mode(*scene, *trained, RenderMode::product, 256, 5, &none, RouletteMode::none);
+  render_mode(*scene, *trained, RenderMode::product, 256, 5, &throughput, RouletteMode::throughput);
+  EXPECT_LT(guided.mean_path_length, 0.9 * none.mean_path_length);
+  const auto cost = [](const RenderSummary& s) { return s.estimated_relmse * s.mean_path_length; };
+  EXPECT_LT(cost(guided), cost(none));
+  EXPECT_LT(cost(guided), cost(throughput));
 }
 
 TEST_F(SlowRenderModes, ACacheOfNonsenseDoesNotBias) {

@@ -351,11 +351,12 @@ TEST(CacheTrain, DropsDirectLightFromTheMixtureButNotFromTheIrradiance) {
   for (Photon& p : direct) p.path_depth = 0;
   for (size_t i = 0; i < direct.size(); ++i)
     photons.insert(photons.end(), {indirect[i], direct[i]});
-  CacheTrainOptions drop;
+  CacheTrainOptions drop, keep;
   drop.direct = DirectLight::drop;
+  keep.direct = DirectLight::keep;
   CacheTrainSummary summary;
   const GuideCache without = train(photons, floor_info(1), drop, &summary);
-  const GuideCache with = train(photons, floor_info(1));
+  const GuideCache with = train(photons, floor_info(1), keep);
   EXPECT_EQ(summary.dropped_direct, 10'000u);
   EXPECT_LT(density(without, Vec3::Zero(), Vec3::UnitZ(), Vec3(-1, 0, 1)), 1e-3f);
   EXPECT_GT(density(with, Vec3::Zero(), Vec3::UnitZ(), Vec3(-1, 0, 1)), 1);

@@ -43,7 +43,7 @@ void declare(CLI::App& app, CacheTrainArguments& arguments) {
                  "keep or drop photons straight from an emitter, which next-event estimation finds")
       ->type_name("keep|drop")
       ->transform(CLI::CheckedTransformer(direct))
-      ->default_str("keep");
+      ->default_str("drop");
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ void declare(CLI::App& app, RenderArguments& arguments) {
   as_output(app.add_option("-o,--output", arguments.output, "Image to write (.exr)"))->required();
   as_output(app.add_option("--png", arguments.png, "The image as sRGB picture too"));
   add_mode(app, options.mode);
+  add_roulette(app, options.roulette);
   as_input(app.add_option("--cache", arguments.cache, "Illumination cache"));
   as_input(app.add_option("--brdf", arguments.brdf, "Fitted BSDFs"));
   declare_stopping(app, options);
@@ -46,8 +47,8 @@ void declare(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--max-depth", options.max_depth, "Path edges; -1: no limit, -2: the scene's");
   app.add_option("--rr-depth", options.rr_depth,
                  "Path edges before Russian roulette; -1: the scene's");
-  app.add_option("--guiding-prob", options.guiding_prob, "Share of directions from the guide")
-      ->check(CLI::Range(0.0, 0.99));
+  app.add_option("--guiding-prob", options.guiding_prob,
+                 "Share of directions from the guide; -1: the mode's");
 }
 
 }  // namespace

@@ -64,6 +64,17 @@ void add_mode(CLI::App& app, RenderMode& mode) {
       ->default_str("bsdf");
 }
 
+void add_roulette(CLI::App& app, RouletteMode& mode) {
+  const std::map<std::string, RouletteMode> kModes = {{"auto", RouletteMode::automatic},
+                                                      {"none", RouletteMode::none},
+                                                      {"throughput", RouletteMode::throughput},
+                                                      {"guided", RouletteMode::guided}};
+  app.add_option("--rr", mode, "Russian roulette; auto: guided where there is a cache")
+      ->type_name("auto|none|throughput|guided")
+      ->transform(CLI::CheckedTransformer(kModes))
+      ->default_str("auto");
+}
+
 void add_frame(CLI::App& app, RenderArguments& frame) {
   app.add_option("--size", frame.size, "Size of the image")->type_name("WxH");
   app.add_option("--crop", frame.crop, "Render this window only, in pixels of the whole image")

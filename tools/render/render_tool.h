@@ -14,6 +14,7 @@ struct RenderArguments {
 };
 
 void add_mode(CLI::App& app, RenderMode& mode);         // --mode
+void add_roulette(CLI::App& app, RouletteMode& mode);   // --rr
 void add_frame(CLI::App& app, RenderArguments& frame);  // --size, --crop, --aov
 
 void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arguments);
