@@ -26,6 +26,15 @@ bool is_special(const std::string& path) {
   return fs::exists(path, error) && !fs::is_regular_file(path, error);
 }
 
+// Tried, since access() says yes to root where nobody can write.
+bool can_create_beside(const std::string& path) {
+  const std::string probe = fmt::format("{}.probe{}", path, ::getpid());
+  const int descriptor = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0) return false;
+  ::close(descriptor);
+  return ::unlink(probe.c_str()) == 0;
+}
+
 // After a crash of the machine the name must not stand for a file whose blocks were never written.
 void flush_to_disk(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY);
@@ -43,9 +52,9 @@ void check_writable(const std::string& path) {
   if (!fs::is_directory(folder))
     fail("\"{}\": the folder \"{}\" does not exist", path, folder.string());
   if (fs::is_directory(path)) fail("\"{}\": is a folder, not a file", path);
-  const std::string target = is_special(path) ? path : folder.string();
-  if (::access(target.c_str(), W_OK) != 0)
-    fail("\"{}\": cannot write to \"{}\" (permissions)", path, target);
+  const bool possible =
+      is_special(path) ? ::access(path.c_str(), W_OK) == 0 : can_create_beside(path);
+  if (!possible) fail("\"{}\": cannot write: {}", path, std::strerror(errno));
 }
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path), temporary_(path) {

@@ -110,7 +110,8 @@ size_t ByteSource::read(std::span<char> buffer) {
   size_t done = 0;
   while (done < buffer.size()) {
     const ssize_t count = ::read(descriptor_.value(), buffer.data() + done, buffer.size() - done);
-    if (count < 0 && errno == EINTR) continue;
+    // A handler ran: someone asks to stop, and a pipe may stay silent for ever.
+    if (count < 0 && errno == EINTR) fail("\"{}\": reading was interrupted", name_);
     if (count < 0) fail("\"{}\": cannot read: {}", name_, std::strerror(errno));
     if (count == 0) break;
     done += static_cast<size_t>(count);

@@ -24,6 +24,11 @@ std::vector<const char*> differences(const SceneHash& a, const SceneHash& b, Sce
   return names;
 }
 
+// From the scene on: to reduce or to train again what was made for another scene would not help.
+const char* stages_to_run(SceneParts parts) {
+  return parts == SceneParts::all ? "photon-trace and the stages after it" : "brdf-fit";
+}
+
 const char* name_or(const std::string& name, const char* otherwise) {
   return name.empty() ? otherwise : name.c_str();
 }
@@ -50,7 +55,7 @@ void require_same_scene(const std::string& path, const Provenance& provenance,
   fail(
       "\"{}\": was made for the scene \"{}\", and \"{}\" has other {}: run {} again for this scene",
       path, name_or(provenance.scene_name, "(none)"), name_or(scene_name, "(none)"),
-      fmt::join(differing, " and "), name_or(provenance.tool, "the tool that made it"));
+      fmt::join(differing, " and "), stages_to_run(parts));
 }
 
 }  // namespace waylight

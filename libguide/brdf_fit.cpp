@@ -53,8 +53,10 @@ std::vector<EntryFit> fit_all(const FitPlan& plan, std::span<const Task> tasks,
     results.resize(std::min(tasks.size(), first + kTasksPerRound));
     parallel_for(results.size() - first, [&](size_t i) {
       const Task& task = tasks[first + i];
-      results[first + i] = fit_entry(plan.fits[task.fit], task.entry, options);
+      if (!control.stopped())
+        results[first + i] = fit_entry(plan.fits[task.fit], task.entry, options);
     });
+    if (control.stopped()) results.resize(first);
     control.progress(double(results.size()), double(tasks.size()), "fits");
   }
   return results;

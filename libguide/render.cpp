@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "libguide/base/error.h"
+#include "libguide/base/memory.h"
 #include "libguide/base/parallel.h"
 #include "libguide/scene/camera.h"
 #include "libguide/transport/film.h"
@@ -35,6 +36,18 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// The sums, then the image of every channel, and its copy while it is written.
+void require_memory_for(const FilmDescription& film) {
+  constexpr double kChannels = 16, kBytesPerPixel = sizeof(PixelSums) + 2 * kChannels * 4;
+  const double needed = kBytesPerPixel * film.crop_width * film.crop_height;
+  const double limit = static_cast<double>(memory_limit_bytes());
+  require(
+      needed <= limit,
+      "{} x {} pixels need up to {:.1f} GB of memory, and there are {:.1f} GB: reduce --size, or "
+      "render windows of it with --crop",
+      film.crop_width, film.crop_height, needed / 1e9, limit / 1e9);
+}
+
 // The scene's film with the options' size and crop window.
 FilmDescription film_of(const FilmDescription& scene_film, const RenderOptions& options) {
   FilmDescription film = scene_film;
@@ -61,6 +74,7 @@ FilmDescription film_of(const FilmDescription& scene_film, const RenderOptions& 
               film.crop_y + film.crop_height <= film.height,
           "the crop window {}x{}+{}+{} leaves the film of {}x{} pixels", film.crop_width,
           film.crop_height, film.crop_x, film.crop_y, film.width, film.height);
+  require_memory_for(film);
   return film;
 }
 

@@ -213,7 +213,7 @@ TEST(RequireSameScene, NamesWhatDiffersAndTheRemedy) {
   require_same_scene("a.cache", made_for, "hall.xml", other, SceneParts::materials);
   const std::string message = error_of(
       [&] { require_same_scene("a.cache", made_for, "hall.xml", other, SceneParts::all); });
-  for (const char* part : {"a.cache", "room.xml", "hall.xml", "geometry and media", "cache-train"})
+  for (const char* part : {"a.cache", "room.xml", "hall.xml", "geometry and media", "photon-trace"})
     EXPECT_TRUE(mentions(message, part)) << message;
   other = made_for.scene, other.materials = 9, other.emitters = 9;
   EXPECT_TRUE(
