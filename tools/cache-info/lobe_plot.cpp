@@ -60,7 +60,8 @@ const MaterialFit& find_fit(const BrdfCache& cache, const std::string& target) {
     for (const MaterialFit& fit : cache.materials)
       if (fit.material == *index) return fit;
   std::string names;
-  for (const MaterialFit& fit : cache.materials) names += fmt::format(" {}", fit.name);
+  for (const MaterialFit& fit : cache.materials)
+    names += fmt::format("{} {}", names.empty() ? "" : ",", fit.name);
   throw Misuse(fmt::format("--plot {}: no fitted material has that name or number; there are{}",
                            target, names.empty() ? " none" : names));
 }

@@ -31,7 +31,8 @@ void declare(CLI::App& app, CacheInfoArguments& arguments) {
   app.add_flag("--check", arguments.check, "Verify everything, and say only that it is sound");
   app.add_option("--plot", arguments.plot.target, "Cell or material to draw")
       ->type_name("CELL|MATERIAL");
-  as_output(app.add_option("-o,--output", arguments.plot.output, "Picture to draw (.png)"));
+  as_output(app.add_option("-o,--output", arguments.plot.output, "Picture to draw (.png)"),
+            {".png"});
   as_input(app.add_option("--samples", arguments.plot.samples,
                           "Photon file whose photons are drawn beside the cell's mixture"));
   app.add_option("--elevation", arguments.plot.elevation,

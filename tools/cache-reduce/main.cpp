@@ -27,8 +27,7 @@ void declare(CLI::App& app, CacheReduceArguments& arguments) {
   as_output(app.add_option("-o,--output", arguments.output, "File to write, of the same kind"))
       ->required();
   app.add_option("--max-cost", arguments.options.max_cost,
-                 "Percent of the cost of collapsing a mixture to one component")
-      ->check(CLI::Range(0.0, 100.0));
+                 "Percent of the cost of collapsing a mixture to one component");
   app.add_option("--max-components", arguments.options.max_components,
                  "Merge on until a mixture has no more than these")
       ->check(CLI::Range(1, 8));

@@ -6,6 +6,7 @@
 
 #include "formats/cache_file.h"
 #include "formats/photon_file.h"
+#include "libguide/base/error.h"
 #include "tools/common/provenance_of.h"
 
 namespace waylight {
@@ -16,6 +17,9 @@ CacheFile read_previous(const CacheTrainArguments& arguments, const Provenance& 
   CacheFile previous = read_cache(arguments.previous);
   require_same_scene(arguments.previous, previous.provenance, photons.scene_name, photons.scene,
                      SceneParts::all);
+  if (previous.cache.training.empty())
+    fail("\"{}\": is a reduced cache, which cannot be trained further; give the file it came from",
+         arguments.previous);
   return previous;
 }
 

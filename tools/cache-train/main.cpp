@@ -24,8 +24,6 @@ Examples:
 
 void declare(CLI::App& app, CacheTrainArguments& arguments) {
   CacheTrainOptions& options = arguments.options;
-  const std::map<std::string, DirectLight> direct = {{"keep", DirectLight::keep},
-                                                     {"drop", DirectLight::drop}};
   as_input(app.add_option("--photons", arguments.photons, "Photon file; - is the standard input"))
       ->required();
   as_input(app.add_option("--in", arguments.previous, "Cache to go on from"));
@@ -39,11 +37,10 @@ void declare(CLI::App& app, CacheTrainArguments& arguments) {
   app.add_option("--normal-spread", options.normal_spread,
                  "A cell whose mean normal is shorter than this is split by orientation")
       ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--direct", options.direct,
-                 "keep or drop photons straight from an emitter, which next-event estimation finds")
-      ->type_name("keep|drop")
-      ->transform(CLI::CheckedTransformer(direct))
-      ->default_str("drop");
+  add_choice(
+      app, "--direct", {"drop", "keep"},
+      [&options](size_t i) { options.direct = i == 0 ? DirectLight::drop : DirectLight::keep; },
+      "Photons straight from an emitter, which next-event estimation finds too");
 }
 
 }  // namespace

@@ -141,7 +141,8 @@ std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartL
 void run_gnuplot(const std::string& script) {
   // A gnuplot that ends early is told by its status, not by a signal that ends us.
   const auto old_handler = std::signal(SIGPIPE, SIG_IGN);
-  std::FILE* pipe = ::popen("exec gnuplot -d", "w");
+  // Under LC_ALL=C gnuplot warns of a degree sign that no chart has.
+  std::FILE* pipe = ::popen("exec env LC_ALL=C.UTF-8 gnuplot -d", "w");
   if (!pipe) fail("gnuplot cannot be started");
   std::fwrite(script.data(), 1, script.size(), pipe);
   const int status = ::pclose(pipe);

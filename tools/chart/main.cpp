@@ -21,10 +21,12 @@ Example:
 void declare(CLI::App& app, ChartOptions& options) {
   as_input(app.add_option("TABLES", options.tables, "Tables that `image-compare --csv` wrote"))
       ->required();
-  as_output(app.add_option("-o,--output", options.output, "Chart to write (.svg)"))->required();
+  as_output(app.add_option("-o,--output", options.output, "Chart to write (.svg)"), {".svg"})
+      ->required();
   app.add_option("--title", options.title, "Title of the chart");
-  app.add_option("--x", options.x, "seconds or spp");
-  app.add_option("--y", options.y, "relmse, mse, relmse_trimmed or mape");
+  app.add_option("--x", options.x, "Column of the horizontal axis")->type_name("seconds|spp");
+  app.add_option("--y", options.y, "Column of the vertical axis")
+      ->type_name("relmse|mse|relmse_trimmed|mape");
   app.add_flag("--preprocess", options.preprocess, "Add preprocess_seconds to the seconds");
   app.add_flag("--png", options.png, "Write a PNG of the same name too");
 }

@@ -15,13 +15,11 @@
 #include "formats/atomic_file.h"
 #include "libguide/base/error.h"
 #include "libguide/base/parallel.h"
+#include "tools/common/command_line.h"
 #include "tools/common/progress.h"
 
 namespace waylight {
 namespace {
-
-constexpr const char* kInput = "INPUT";
-constexpr const char* kOutput = "OUTPUT";
 
 std::atomic<bool> stop_requested{false};
 
@@ -34,20 +32,12 @@ void install_signal_handlers() {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-std::vector<std::string> files_of(const CLI::App& app, const char* kind) {
-  std::vector<std::string> files;
-  for (const CLI::Option* option : app.get_options())
-    if (option->get_type_name() == kind && option->count() > 0)
-      for (const std::string& file : option->results())
-        if (file != "-") files.push_back(file);
-  return files;
-}
-
 bool same_file(const std::string& a, const std::string& b) {
   namespace fs = std::filesystem;
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
-  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+  return fs::weakly_canonical(fs::absolute(a), error) ==
+         fs::weakly_canonical(fs::absolute(b), error);
 }
 
 // Before any work is done, so that an hour's result is not lost to a misspelt folder.
@@ -67,44 +57,6 @@ void check_files(const CLI::App& app) {
     if (::access(input.c_str(), R_OK) != 0) fail("\"{}\": cannot be read (permissions)", input);
   }
   for (const std::string& output : outputs) check_writable(output);
-}
-
-// Words that a shell would split are quoted.
-std::string quoted(const std::string& word) {
-  const bool plain = !word.empty() && word.find_first_of(" \t\n\"'$\\|&;<>*?()") == word.npos;
-  return plain ? word : fmt::format("'{}'", word);
-}
-
-std::string canonical_value(const CLI::Option& option, const std::string& value) {
-  if (option.get_type_name() != kInput || value == "-") return quoted(value);
-  return quoted(std::filesystem::path(value).filename().string());
-}
-
-void append_option(const CLI::Option& option, std::string& text) {
-  const std::string name = option.get_positional() ? "" : option.get_name();
-  if (option.get_type_size_max() == 0) {  // a flag
-    text += " " + name;
-    return;
-  }
-  if (option.results().size() > 1 && option.get_expected_max() == 1 && !name.empty()) {
-    for (const std::string& value : option.results())
-      text += fmt::format(" {} {}", name, canonical_value(option, value));
-    return;
-  }
-  if (!name.empty()) text += " " + name;
-  for (const std::string& value : option.results()) text += " " + canonical_value(option, value);
-}
-
-std::string canonical_command_line(const CLI::App& app, const std::string& tool) {
-  std::string text = tool;
-  for (const CLI::Option* option : app.get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() == 0 || option->get_type_name() == kOutput || name == "--threads" ||
-        name == "--quiet")
-      continue;
-    append_option(*option, text);
-  }
-  return text;
 }
 
 // Inside a Slurm job the job's share counts, not the machine's.
@@ -135,7 +87,8 @@ class ToolRunner {
     } catch (const CLI::Success& asked) {  // --help, --version
       return app_.exit(asked);
     } catch (const CLI::ParseError& error) {
-      return print_error(fmt::format("{} (see {} --help)", error.what(), info_.name), kMisuse);
+      const std::string message = app_.remaining().empty() ? error.what() : unknown_words(app_);
+      return print_error(fmt::format("{} (see {} --help)", message, info_.name), kMisuse);
     }
     return run_parsed(body);
   }
@@ -153,9 +106,11 @@ class ToolRunner {
     }
     // "INT (=5)"; CLI11 would print the range twice and an empty default as "[]".
     std::string make_option_opts(const CLI::Option* option) const override {
-      if (option->get_type_size_max() == 0) return {};
+      if (is_flag(*option)) return {};
       const std::string type = option->get_type_name(), value = option->get_default_str();
-      std::string text = " " + type.substr(0, type.find(':'));
+      const bool file = type == kInput || type == kOutput;
+      std::string text = " " + (file ? "FILE" : type.substr(0, type.find(':')));
+      if (file && option->get_positional()) text.clear();
       if (!value.empty() && value != "[]" && value != "\"\"") text += " (=" + value + ")";
       if (option->get_required()) text += " (required)";
       return text;
@@ -187,7 +142,8 @@ class ToolRunner {
     } catch (const std::bad_alloc&) {
       return print_error("out of memory", kFailure);
     } catch (const std::exception& error) {
-      return print_error(error.what(), stop_requested ? kInterrupted : kFailure);
+      if (stop_requested) return print_error("interrupted", kInterrupted);
+      return print_error(error.what(), kFailure);
     }
     progress_.clear();
     return stop_requested ? print_error("interrupted", kInterrupted) : finish_output();
@@ -203,9 +159,7 @@ class ToolRunner {
     install_signal_handlers();
     limit_.emplace(threads_ > 0 ? threads_ : default_threads());
     run_.command_line_ = canonical_command_line(app_, info_.name);
-    for (const CLI::Option* option : app_.get_options())
-      if (option->get_type_name() == kOutput && option->count() > 0)
-        for (const std::string& file : option->results()) run_.stdout_taken_ |= file == "-";
+    run_.stdout_taken_ = uses_standard_stream(app_, kOutput);
     run_.control.stop = &stop_requested;
     run_.control.on_warning = [this](const std::string& message) { progress_.warn(message); };
     if (run_.quiet_) return;
@@ -254,9 +208,6 @@ int run_tool(int argc, char** argv, const ToolInfo& info,
              const std::function<void(ToolRun&)>& body) {
   return ToolRunner(info, declare).run(argc, argv, body);
 }
-
-CLI::Option* as_input(CLI::Option* option) { return option->type_name(kInput); }
-CLI::Option* as_output(CLI::Option* option) { return option->type_name(kOutput); }
 
 const char* version() { return WAYLIGHT_VERSION; }
 

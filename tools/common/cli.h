@@ -59,7 +59,13 @@ int run_tool(int argc, char** argv, const ToolInfo& info,
 
 // Marks an option (or positional) as naming input or output files; "-" is stdin or stdout.
 CLI::Option* as_input(CLI::Option* option);
-CLI::Option* as_output(CLI::Option* option);
+// An output's name must end in one of `endings`, if there are any.
+CLI::Option* as_output(CLI::Option* option, const std::vector<std::string>& endings = {});
+
+// An option that takes one of some words; `choose` is given its place. The first is the default.
+CLI::Option* add_choice(CLI::App& app, const std::string& name,
+                        const std::vector<std::string>& choices,
+                        const std::function<void(size_t)>& choose, const std::string& description);
 
 const char* version();                   // of the release
 size_t peak_memory_bytes();              // of this process

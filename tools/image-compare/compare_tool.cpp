@@ -11,6 +11,8 @@
 namespace waylight {
 namespace {
 
+constexpr const char* kVariance = "variance.";  // channels of `render --aov variance`
+
 // Brings pictures that belong to the reference, or to the image, to the window that is compared.
 class Framing {
  public:
@@ -37,7 +39,9 @@ class Framing {
 };
 
 Bitmap colors_in(const Image& image, const std::string& path, const std::string& prefix) {
-  if (!has_color(image, prefix)) fail("\"{0}\": has no channels {1}R, {1}G, {1}B", path, prefix);
+  if (!has_color(image, prefix))
+    fail("\"{0}\": has no channels {1}R, {1}G, {1}B{2}", path, prefix,
+         prefix == kVariance ? "; render it with --aov variance" : "");
   return color_of(image, prefix);
 }
 
@@ -49,7 +53,6 @@ void add(Bitmap& sum, const Bitmap& term, double divisor) {
 // Of the difference: the sum of all variances named, each already in the window.
 Bitmap total_variance(const ImageCompareOptions& options, const Image& image,
                       const Image& reference, const Framing& frame) {
-  const std::string own = "variance.";
   std::optional<Bitmap> sum;
   const auto add_term = [&](const Image& source, const std::string& path, const std::string& prefix,
                             double divisor) {
@@ -62,8 +65,8 @@ Bitmap total_variance(const ImageCompareOptions& options, const Image& image,
   };
   for (const std::string& variance : options.variances) {
     if (variance == "self") {
-      add_term(image, options.image, own, 1);
-      if (has_color(reference, own)) add_term(reference, options.reference, own, 1);
+      add_term(image, options.image, kVariance, 1);
+      if (has_color(reference, kVariance)) add_term(reference, options.reference, kVariance, 1);
     } else {
       add_term(read_image(variance), variance, "", options.variance_samples);
     }

@@ -63,7 +63,7 @@ void print_table(const ToolRun& run, const ComparisonReport& report) {
   run.print(fmt::format("{:<16}{:.4g} %", "MAPE", 100 * f.mape));
   run.print(fmt::format("{:<16}{:.6g}", "mean", f.mean));
   run.print(fmt::format("{:<16}{:.6g}", "reference mean", f.ref_mean));
-  run.print(fmt::format("{:<16}{:.6g}", "ratio of means", f.mean_ratio()));
+  if (f.ref_mean != 0) run.print(fmt::format("{:<16}{:.6g}", "ratio of means", f.mean_ratio()));
   if (!report.z) return;
   run.print(fmt::format("\n{:<10}{:>10}{:>10}{:>10}{:>22}{:>22}{:>10}{:>13}", "z of", "scores",
                         "mean", "stddev", "|z|>2 (chance)", "|z|>3 (chance)", "largest",

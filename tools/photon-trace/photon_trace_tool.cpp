@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "formats/photon_file.h"
+#include "libguide/base/error.h"
 #include "tools/common/provenance_of.h"
 
 namespace waylight {
@@ -41,6 +42,9 @@ void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArg
   const std::unique_ptr<Scene> built =
       build_scene(load_scene(arguments.scene, run), arguments.scene, run);
   const Scene& scene = *built;
+  if (!scene.has_lights())
+    fail("\"{}\": no emitter sends light into the scene, so there are no photons to trace",
+         arguments.scene.path);
   const Provenance provenance =
       provenance_of(run, tool, options.seed, arguments.scene, scene.description().hash);
   PhotonWriter writer(arguments.output,

@@ -26,17 +26,25 @@ Examples:
   render room.xml -o guided.exr --mode product --cache room.cache --brdf room.brdf --time 60)"};
 
 void declare_stopping(CLI::App& app, RenderOptions& options) {
-  app.add_option("--spp", options.spp, "Samples per pixel")->check(CLI::Range(1, 1 << 24));
-  app.add_option("--time", options.time, "Seconds of rendering")->check(CLI::PositiveNumber);
-  app.add_option("--error", options.error, "Estimated relMSE to reach")->check(CLI::PositiveNumber);
+  app.add_option("--spp", options.spp, "Samples per pixel")
+      ->check(CLI::Range(1, 1 << 24))
+      ->default_str("");
+  app.add_option("--time", options.time, "Seconds of rendering")
+      ->check(CLI::PositiveNumber)
+      ->default_str("");
+  app.add_option("--error", options.error, "Estimated relMSE to reach")
+      ->check(CLI::PositiveNumber)
+      ->default_str("");
 }
 
 void declare(CLI::App& app, RenderArguments& arguments) {
   RenderOptions& options = arguments.options;
   add_scene(app, arguments.scene);
   add_ignore_media(app, arguments.scene);
-  as_output(app.add_option("-o,--output", arguments.output, "Image to write (.exr)"))->required();
-  as_output(app.add_option("--png", arguments.png, "The image as sRGB picture too"));
+  as_output(app.add_option("-o,--output", arguments.output, "Image to write (.exr)"), {".exr"})
+      ->required();
+  as_output(app.add_option("--png", arguments.png, "The image as sRGB picture too (.png)"),
+            {".png"});
   add_mode(app, options.mode);
   add_roulette(app, options.roulette);
   as_input(app.add_option("--cache", arguments.cache, "Illumination cache"));
@@ -48,7 +56,7 @@ void declare(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--rr-depth", options.rr_depth,
                  "Path edges before Russian roulette; -1: the scene's");
   app.add_option("--guiding-prob", options.guiding_prob,
-                 "Share of directions from the guide; -1: the mode's");
+                 "Share of directions from the guide, 0 to 0.99; -1: the mode's");
 }
 
 }  // namespace

@@ -10,13 +10,8 @@ namespace {
 
 constexpr int kDefaultSpp = 64;
 
-const std::map<std::string, RenderMode>& modes() {
-  static const std::map<std::string, RenderMode> kModes = {
-      {"bsdf", RenderMode::bsdf},
-      {"illumination", RenderMode::illumination},
-      {"product", RenderMode::product}};
-  return kModes;
-}
+// In the order of RenderMode.
+const std::vector<std::string> kModes = {"bsdf", "illumination", "product"};
 
 const std::map<std::string, bool AovSet::*>& aov_names() {
   static const std::map<std::string, bool AovSet::*> kNames = {
@@ -58,21 +53,17 @@ void read_crop(const std::string& text, RenderOptions& options) {
 }  // namespace
 
 void add_mode(CLI::App& app, RenderMode& mode) {
-  app.add_option("--mode", mode, "What directions are sampled from")
-      ->type_name("bsdf|illumination|product")
-      ->transform(CLI::CheckedTransformer(modes()))
-      ->default_str("bsdf");
+  add_choice(
+      app, "--mode", kModes, [&mode](size_t i) { mode = static_cast<RenderMode>(i); },
+      "What directions are sampled from");
 }
 
 void add_roulette(CLI::App& app, RouletteMode& mode) {
-  const std::map<std::string, RouletteMode> kModes = {{"auto", RouletteMode::automatic},
-                                                      {"none", RouletteMode::none},
-                                                      {"throughput", RouletteMode::throughput},
-                                                      {"guided", RouletteMode::guided}};
-  app.add_option("--rr", mode, "Russian roulette; auto: guided where there is a cache")
-      ->type_name("auto|none|throughput|guided")
-      ->transform(CLI::CheckedTransformer(kModes))
-      ->default_str("auto");
+  // In the order of RouletteMode.
+  add_choice(
+      app, "--rr", {"auto", "none", "throughput", "guided"},
+      [&mode](size_t i) { mode = static_cast<RouletteMode>(i); },
+      "Russian roulette; auto: guided where there is a cache");
 }
 
 void add_frame(CLI::App& app, RenderArguments& frame) {
@@ -95,10 +86,6 @@ RenderOptions complete_options(const RenderArguments& arguments) {
   return options;
 }
 
-const char* mode_name(RenderMode mode) {
-  for (const auto& [name, value] : modes())
-    if (value == mode) return name.c_str();
-  return "";
-}
+const char* mode_name(RenderMode mode) { return kModes[static_cast<size_t>(mode)].c_str(); }
 
 }  // namespace waylight

@@ -25,6 +25,8 @@ struct LoadedCaches {
     guide.emplace(arguments.cache);
     require_same_scene(arguments.cache, guide->provenance(), scene_name, scene.hash,
                        SceneParts::all);
+    if (guide->view().cells.empty())
+      fail("\"{}\": has no cells; train it on photons of the scene", arguments.cache);
     parents.push_back(parent_of(arguments.cache));
     if (mode != RenderMode::product) return;
     require(!arguments.brdf.empty(), "--mode product needs --brdf");
@@ -92,6 +94,10 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
   Provenance provenance = provenance_of(run, tool, options.seed, arguments.scene, description.hash);
   provenance.parents = loaded.parents;
   const std::unique_ptr<Scene> scene = build_scene(std::move(description), arguments.scene, run);
+  if (!scene->has_lights())
+    run.control.warn(
+        fmt::format("\"{}\": no emitter sends light into the scene; the image will be black",
+                    arguments.scene.path));
   RenderSummary summary;
   const Image image = render(*scene, loaded.caches(), options, &summary, run.control);
   if (summary.mean_spp < 1) run.stop_if_interrupted();  // a part of the pixels is no image
