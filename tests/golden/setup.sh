@@ -1,5 +1,7 @@
-# The smallest pipeline, run once in the folder of the golden cases.
+# The smallest pipeline, and scenes and files that are wrong in one respect each; made once, in the
+# folder that is copied for each golden case.
 set -e
+
 brdf-fit box.xml -o box.brdf --elevations 8 --quiet
 photon-trace box.xml -o box.photons --count 20000 --quiet
 cache-train --photons box.photons -o box.cache --photons-per-cell 2000 --quiet
@@ -8,8 +10,32 @@ cache-reduce box.brdf -o reduced.brdf --quiet
 render box.xml -o plain.exr --spp 16 --aov variance --png plain.png --quiet
 render box.xml -o guided.exr --mode product --cache reduced.cache --brdf reduced.brdf --spp 16 \
   --aov all --stats guided.json --quiet
+
 head -c 2000 box.cache > truncated.cache
 head -c 3000 box.photons > truncated.photons
 head -c 700 box.brdf > truncated.brdf
 printf 'not one of ours, but long enough to be read as if it were' > noise.bin
 : > empty.bin
+
+# variant NAME FROM TO: box.xml with one text for another.
+variant() {
+  sed "s|$2|$3|" box.xml > "$1.xml"
+  ! cmp -s box.xml "$1.xml"
+}
+variant repainted 'value="0.7, 0.6, 0.5"' 'value="0.2, 0.6, 0.5"'
+variant unknown '"roughconductor"' '"rufconductor"'
+variant nan 'value="20, 18, 15"' 'value="nan, 18, 15"'
+variant infinite 'name="fov" value="60"' 'name="fov" value="inf"'
+variant negative 'value="20, 18, 15"' 'value="20, -18, 15"'
+variant dark 'value="20, 18, 15"' 'value="0"'
+variant flat '<scale x="0.5" y="0.4"/>' '<scale x="0.5" y="0"/>'
+variant away 'target="0, 0.9, 0"' 'target="0, 1, 10"'
+variant stare 'target="0, 0.9, 0"' 'target="0, 1, 3.4"'
+variant mesh '<shape type="rectangle" id="screen">' \
+  '<shape type="obj" id="screen"><string name="filename" value="screen.obj"/>'
+variant unclosed '</scene>' ''
+printf '<scene version="3.0.0"/>\n' > bare.xml
+
+# Triangles of which one has no area.
+printf 'v %s\n' '-1 -1 0' '1 -1 0' '1 1 0' '2 2 0' > screen.obj
+printf 'f %s\n' '1 2 3' '1 3 4' >> screen.obj
