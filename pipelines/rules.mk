@@ -5,7 +5,11 @@
 #   make -f pipelines/gap-room.mk clean
 #
 # Every stage keeps its options in a stamp, so changing one reruns only what depends on it. Outputs
-# appear complete or not at all, so an interrupted make goes on where it stopped.
+# appear complete or not at all, so an interrupted make goes on where it stopped: a stage whose
+# statistics are missing is run again, because it was stopped between the two files.
+#
+# Renders are limited by time: with `make -j` they share the processors and the chart says little,
+# unless LAUNCH sends them to machines of their own.
 #
 # NAME             name of the pipeline and of its folder of results          (required)
 # SCENE            scene file                                                 (required)
@@ -42,7 +46,6 @@ QUIET ?=
 
 .PHONY: all cache images chart reference clean FORCE
 all: chart
-cache: $(OUT)/reduced.brdf $(OUT)/reduced.cache
 chart: $(OUT)/$(NAME).svg
 reference: $(OUT)/reference.exr
 
@@ -50,29 +53,37 @@ reference: $(OUT)/reference.exr
 define stamp
 $(OUT)/.options/$(1): FORCE
 	@mkdir -p $$(@D)
-	@printf '%s\n' '$(2)' | cmp -s - $$@ || printf '%s\n' '$(2)' > $$@
+	@printf '%s\n' '$(subst ','\'',$(2))' > $$@.new
+	@if cmp -s $$@.new $$@; then rm $$@.new; else mv $$@.new $$@; fi
 endef
 $(eval $(call stamp,brdf-fit,$(SCENE_FLAGS) $(SEED) $(BRDF_FIT_FLAGS)))
 $(eval $(call stamp,photon-trace,$(SCENE_FLAGS) $(SEED) $(PHOTONS) $(PHOTON_TRACE_FLAGS)))
 $(eval $(call stamp,cache-train,$(CACHE_TRAIN_FLAGS)))
 $(eval $(call stamp,cache-reduce,$(CACHE_REDUCE_FLAGS)))
 $(eval $(call stamp,render,$(SCENE_FLAGS) $(SEED) $(SIZE) $(RENDER_FLAGS)))
+$(eval $(call stamp,reference,$(SCENE_FLAGS) $(SIZE) $(REFERENCE_SPP)))
+$(eval $(call stamp,chart,$(METHODS) $(TIMES)))
 
-$(OUT)/scene.brdf: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/brdf-fit $(BIN)/brdf-fit
-	$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $(SCENE_FLAGS) -o $@ --seed $(SEED) \
+$(OUT)/scene.brdf $(OUT)/brdf-fit.json &: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/brdf-fit \
+    $(BIN)/brdf-fit
+	$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $(SCENE_FLAGS) -o $(OUT)/scene.brdf --seed $(SEED) \
 	  --stats $(OUT)/brdf-fit.json $(BRDF_FIT_FLAGS) $(QUIET)
 
-$(OUT)/scene.photons: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/photon-trace $(BIN)/photon-trace
-	$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $@ --count $(PHOTONS) --seed $(SEED) \
-	  --stats $(OUT)/photon-trace.json $(PHOTON_TRACE_FLAGS) $(QUIET)
+$(OUT)/scene.photons $(OUT)/photon-trace.json &: $(SCENE) $(SCENE_INPUTS) \
+    $(OUT)/.options/photon-trace $(BIN)/photon-trace
+	$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $(OUT)/scene.photons \
+	  --count $(PHOTONS) --seed $(SEED) --stats $(OUT)/photon-trace.json \
+	  $(PHOTON_TRACE_FLAGS) $(QUIET)
 
-$(OUT)/scene.cache: $(OUT)/scene.photons $(OUT)/.options/cache-train $(BIN)/cache-train
-	$(LAUNCH) $(BIN)/cache-train --photons $< -o $@ --stats $(OUT)/cache-train.json \
-	  $(CACHE_TRAIN_FLAGS) $(QUIET)
+$(OUT)/scene.cache $(OUT)/cache-train.json &: $(OUT)/scene.photons $(OUT)/.options/cache-train \
+    $(BIN)/cache-train
+	$(LAUNCH) $(BIN)/cache-train --photons $(OUT)/scene.photons -o $(OUT)/scene.cache \
+	  --stats $(OUT)/cache-train.json $(CACHE_TRAIN_FLAGS) $(QUIET)
 
-$(OUT)/reduced.%: $(OUT)/scene.% $(OUT)/.options/cache-reduce $(BIN)/cache-reduce
-	$(LAUNCH) $(BIN)/cache-reduce $< -o $@ --stats $(OUT)/cache-reduce-$*.json \
-	  $(CACHE_REDUCE_FLAGS) $(QUIET)
+$(OUT)/reduced.% $(OUT)/cache-reduce-%.json: $(OUT)/scene.% $(OUT)/.options/cache-reduce \
+    $(BIN)/cache-reduce
+	$(LAUNCH) $(BIN)/cache-reduce $(OUT)/scene.$* -o $(OUT)/reduced.$* \
+	  --stats $(OUT)/cache-reduce-$*.json $(CACHE_REDUCE_FLAGS) $(QUIET)
 
 # Caches that each mode needs.
 caches_bsdf :=
@@ -85,32 +96,38 @@ preprocess_bsdf :=
 preprocess_illumination := $(foreach s,photon-trace cache-train cache-reduce-cache,$(OUT)/$(s).json)
 preprocess_product := $(preprocess_illumination) \
   $(foreach s,brdf-fit cache-reduce-brdf,$(OUT)/$(s).json)
+cache: $(caches_product) $(preprocess_product)
 
 # $(call render_rule,mode): images at each time, MODE-SECONDSs.exr, and their figures.
 define render_rule
-$(OUT)/$(1)-%s.exr: $(SCENE) $(SCENE_INPUTS) $$(caches_$(1)) $(OUT)/.options/render $(BIN)/render
-	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $$@ --mode $(1) $$(cache_flags_$(1)) \
-	  --time $$* --size $(SIZE) --seed $(SEED) --aov variance --png $$(basename $$@).png \
-	  --stats $$(basename $$@).json $(RENDER_FLAGS) $(QUIET)
+$(OUT)/$(1)-%s.exr $(OUT)/$(1)-%s.json: $(SCENE) $(SCENE_INPUTS) $$(caches_$(1)) \
+    $(OUT)/.options/render $(BIN)/render
+	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $(OUT)/$(1)-$$*s.exr --mode $(1) \
+	  $$(cache_flags_$(1)) --time $$* --size $(SIZE) --seed $(SEED) --aov variance \
+	  --png $(OUT)/$(1)-$$*s.png --stats $(OUT)/$(1)-$$*s.json $(RENDER_FLAGS) $(QUIET)
 
-$(OUT)/$(1)-%s.csv: $(OUT)/$(1)-%s.exr $(REFERENCE) $(BIN)/image-compare
-	@rm -f $$@
-	$$(LAUNCH) $(BIN)/image-compare $$< $(REFERENCE) --render-stats $$(basename $$<).json \
-	  $$(foreach s,$$(preprocess_$(1)),--preprocess-stats $$(s)) \
-	  --label scene=$(NAME) --label method=$(1) --error-image $$(basename $$<)-error.png --csv $$@
+$(OUT)/$(1)-%s.csv: $(OUT)/$(1)-%s.exr $(OUT)/$(1)-%s.json $(REFERENCE) $$(preprocess_$(1)) \
+    $(BIN)/image-compare
+	@rm -f $$@.tmp
+	$$(LAUNCH) $(BIN)/image-compare $(OUT)/$(1)-$$*s.exr $(REFERENCE) \
+	  --render-stats $(OUT)/$(1)-$$*s.json $$(preprocess_$(1):%=--preprocess-stats %) \
+	  --label scene=$(NAME) --label method=$(1) --error-image $(OUT)/$(1)-$$*s-error.png \
+	  --csv $$@.tmp && mv $$@.tmp $$@
 endef
 $(foreach mode,$(METHODS),$(eval $(call render_rule,$(mode))))
 
-images: $(foreach m,$(METHODS),$(foreach t,$(TIMES),$(OUT)/$(m)-$(t)s.exr))
-figures := $(foreach m,$(METHODS),$(foreach t,$(TIMES),$(OUT)/$(m)-$(t)s.csv))
+renders := $(foreach m,$(METHODS),$(foreach t,$(TIMES),$(OUT)/$(m)-$(t)s))
+figures := $(renders:=.csv)
+images: $(renders:=.exr) $(renders:=.json)
 
-$(OUT)/$(NAME).csv: $(figures)
-	@awk 'FNR > 1 || NR == 1' $^ > $@.tmp && mv $@.tmp $@
+$(OUT)/$(NAME).csv: $(figures) $(OUT)/.options/chart
+	@awk 'FNR > 1 || NR == 1' $(figures) > $@.tmp && mv $@.tmp $@
 
 $(OUT)/$(NAME).svg: $(OUT)/$(NAME).csv $(BIN)/chart
-	$(LAUNCH) $(BIN)/chart $< -o $@ --title "$(NAME)"
+	$(LAUNCH) $(BIN)/chart $< -o $@ --title "$(NAME)" $(QUIET)
 
-$(OUT)/reference.exr: $(SCENE) $(SCENE_INPUTS) $(caches_product) $(BIN)/render
+$(OUT)/reference.exr: $(SCENE) $(SCENE_INPUTS) $(caches_product) $(OUT)/.options/reference \
+    $(BIN)/render
 	$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $@ --mode product $(cache_flags_product) \
 	  --spp $(REFERENCE_SPP) --size $(SIZE) --seed 1000003 --aov variance \
 	  --stats $(OUT)/reference.json $(QUIET)

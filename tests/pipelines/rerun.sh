@@ -1,0 +1,121 @@
+#!/usr/bin/env bash
+# Pipelines run from a clean state, and again only as far as something changed.
+#   tests/pipelines/rerun.sh BIN
+# With WAYLIGHT_SCENES, a folder of scenes made elsewhere, the pipelines of those scenes run too.
+set -uo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+bin=$(cd "${1:?usage: rerun.sh BIN}" && pwd)
+export LC_ALL=C
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+cp -r "$root/pipelines" "$work"
+cd "$work" || exit 1
+
+# The tools are links with a fixed old date, so that a build that goes on at the same time does not
+# look like a change.
+mkdir bin
+for tool in brdf-fit photon-trace cache-train cache-reduce render image-compare chart; do
+  printf '#!/bin/sh\nexec "%s/%s" "$@"\n' "$bin" "$tool" > "bin/$tool"
+  chmod +x "bin/$tool"
+  touch -d 2001-01-01 "bin/$tool"
+done
+
+pipeline=gap-room
+tiny=(SIZE=32x18 'TIMES=0.05 0.1' PHOTONS=20000 REFERENCE_SPP=4 BIN=bin QUIET=-q
+      'METHODS=bsdf product' 'BRDF_FIT_FLAGS=--elevations 8' 'REFERENCE=out/$(NAME)/reference.exr')
+run() { make --no-print-directory -f "pipelines/$pipeline.mk" "${tiny[@]}" "$@" > log 2>&1; }
+
+# What the last run ran: the tools, in alphabetical order.
+ran() { grep -oE '^ *bin/[a-z-]+' log | sed 's|.*/||' | sort -u | xargs; }
+
+failures=0
+expect() {
+  local what=$1 expected=$2 actual
+  actual=$(ran)
+  [[ $actual == "$expected" ]] && return
+  echo "FAIL $pipeline: $what ran \"$actual\", not \"$expected\""
+  cat log
+  ((++failures))
+}
+must_run() { run "$@" || { echo "FAIL $pipeline: make $* failed"; cat log; ((++failures)); }; }
+
+everything="brdf-fit cache-reduce cache-train chart image-compare photon-trace render"
+
+must_run
+expect "a clean start" "$everything"
+for file in reduced.brdf reduced.cache bsdf-0.05s.exr product-0.1s.png product-0.1s-error.png \
+    gap-room.csv gap-room.svg; do
+  [[ -s out/gap-room/$file ]] || { echo "FAIL gap-room: no $file"; ((++failures)); }
+done
+must_run
+expect "a second run" ""
+
+reference=$(stat -c %y out/gap-room/reference.exr)
+must_run RENDER_FLAGS='--max-depth 5'
+expect "other RENDER_FLAGS" "chart image-compare render"
+[[ $(stat -c %y out/gap-room/reference.exr) == "$reference" ]] ||
+  { echo "FAIL gap-room: other RENDER_FLAGS made the reference again"; ((++failures)); }
+must_run RENDER_FLAGS="-D quote='two words'"
+expect "RENDER_FLAGS with quotes" "chart image-compare render"
+must_run
+expect "the first flags again" "chart image-compare render"
+must_run CACHE_REDUCE_FLAGS='--max-components 4'
+expect "other CACHE_REDUCE_FLAGS" "cache-reduce chart image-compare render"
+must_run PHOTONS=30000
+expect "other PHOTONS" "cache-reduce cache-train chart image-compare photon-trace render"
+must_run PHOTONS=30000 TIMES=0.05
+expect "fewer TIMES" "chart"
+must_run PHOTONS=30000 METHODS=product
+expect "fewer METHODS" "chart"
+touch pipelines/scenes/gap-room.xml
+must_run
+expect "a touched scene" "$everything"
+
+# Stopped between the two outputs of a stage.
+rm out/gap-room/product-0.1s.{json,csv}
+must_run
+expect "a render without statistics" "chart image-compare render"
+
+# Stopped in the middle of a stage.
+# stopped SIGNAL TEXT MAKE-ARGUMENTS...: a run that is stopped a moment after it prints the text.
+stopped() {
+  local signal=$1 text=$2
+  shift 2
+  setsid make --no-print-directory -f pipelines/gap-room.mk "${tiny[@]}" "$@" > log 2>&1 &
+  for ((i = 0; i < 200; ++i)); do
+    grep -q -- "$text" log && break
+    sleep 0.05
+  done
+  sleep 0.3
+  # Make hands SIGTERM on; to the whole group it would come to the tools twice.
+  if [[ $signal == TERM ]]; then kill -TERM "$!"; else kill "-$signal" -- "-$!"; fi
+  wait "$!" 2> /dev/null
+}
+must_run clean
+stopped TERM bin/photon-trace cache PHOTONS=4000000000
+if compgen -G "out/gap-room/scene.photons*"; then
+  echo "FAIL gap-room: a stopped trace left photons"; ((++failures))
+fi
+stopped KILL bin/photon-trace cache PHOTONS=4000000000
+must_run
+expect "after a killed trace" "$everything"
+stopped KILL bsdf-100s.exr RENDER_FLAGS='--max-depth 4' TIMES='0.05 100'
+must_run RENDER_FLAGS='--max-depth 4'
+expect "after a killed render" "chart image-compare render"
+if [[ $(grep -c '^ *bin/render' log) != 3 ]]; then
+  echo "FAIL gap-room: three of four renders were left to do"; cat log; ((++failures))
+fi
+
+# The other pipelines, once and not again.
+others=(jewelry)
+[[ -n ${WAYLIGHT_SCENES:-} ]] && others+=(veach-ajar kitchenette)
+for pipeline in "${others[@]}"; do
+  once=(TIMES=0.05 'METHODS=bsdf illumination product')
+  must_run "${once[@]}"
+  expect "a clean start" "$everything"
+  must_run "${once[@]}"
+  expect "a second run" ""
+done
+((failures == 0)) && echo "pipelines run again as they should"
+((failures == 0))
