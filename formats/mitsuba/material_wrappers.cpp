@@ -28,25 +28,11 @@ Texture nested_texture(ImportContext& context, Properties& properties) {
   return import_texture(context, *nested[0]);
 }
 
-// What a material is made of.
-std::vector<int> parts(const MaterialModel& model) {
-  if (const auto* m = std::get_if<TwoSidedMaterial>(&model)) return {m->front, m->back};
-  if (const auto* m = std::get_if<MaskMaterial>(&model)) return {m->nested};
-  if (const auto* m = std::get_if<BumpMapMaterial>(&model)) return {m->nested};
-  if (const auto* m = std::get_if<NormalMapMaterial>(&model)) return {m->nested};
-  if (const auto* m = std::get_if<BlendMaterial>(&model)) return {m->first, m->second};
-  return {};
-}
-
 // Whether light can come through, holes of a mask counted as Mitsuba does.
 bool transmissive(const SceneDescription& scene, int index) {
   const MaterialModel& model = scene.materials[index].model;
   const std::vector<int> nested = parts(model);
-  return std::holds_alternative<DielectricMaterial>(model) ||
-         std::holds_alternative<ThinDielectricMaterial>(model) ||
-         std::holds_alternative<RoughDielectricMaterial>(model) ||
-         std::holds_alternative<NullMaterial>(model) ||
-         std::holds_alternative<MaskMaterial>(model) ||
+  return is_interface(model) || std::holds_alternative<MaskMaterial>(model) ||
          std::any_of(nested.begin(), nested.end(), [&](int i) { return transmissive(scene, i); });
 }
 
@@ -73,6 +59,22 @@ void check_depth(const SceneDescription& scene, const Element& element, int inde
 }
 
 }  // namespace
+
+std::vector<int> parts(const MaterialModel& model) {
+  if (const auto* m = std::get_if<TwoSidedMaterial>(&model)) return {m->front, m->back};
+  if (const auto* m = std::get_if<MaskMaterial>(&model)) return {m->nested};
+  if (const auto* m = std::get_if<BumpMapMaterial>(&model)) return {m->nested};
+  if (const auto* m = std::get_if<NormalMapMaterial>(&model)) return {m->nested};
+  if (const auto* m = std::get_if<BlendMaterial>(&model)) return {m->first, m->second};
+  return {};
+}
+
+bool is_interface(const MaterialModel& model) {
+  return std::holds_alternative<DielectricMaterial>(model) ||
+         std::holds_alternative<ThinDielectricMaterial>(model) ||
+         std::holds_alternative<RoughDielectricMaterial>(model) ||
+         std::holds_alternative<NullMaterial>(model);
+}
 
 MaterialModel import_two_sided(ImportContext& context, Properties& properties) {
   const std::vector<int> nested = nested_materials(context, properties, 1, 2);

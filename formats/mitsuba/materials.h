@@ -36,6 +36,15 @@ MaterialModel import_blend(ImportContext& context, Properties& properties);
 MaterialModel import_bump_map(ImportContext& context, Properties& properties);
 MaterialModel import_normal_map(ImportContext& context, Properties& properties);
 
+// What a material is made of; nothing where it is no wrapper.
+std::vector<int> parts(const MaterialModel& model);
+// Glass or nothing: seen from both sides, light passes through it.
+bool is_interface(const MaterialModel& model);
+
+// two_sided.cpp: what shapes show of one side only gets two that are alike. Each opaque part,
+// inside masks, blends, bump and normal maps too, gives its place to a <twosided> around it.
+void make_two_sided(SceneDescription& scene);
+
 // roughness.cpp: `distribution`, `alpha`, `alpha_u`, `alpha_v`.
 struct Roughness {
   MicrofacetDistribution distribution;

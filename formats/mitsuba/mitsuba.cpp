@@ -1,6 +1,6 @@
 #include "formats/mitsuba.h"
 
-#include "formats/mitsuba/import_context.h"
+#include "formats/mitsuba/materials.h"
 #include "formats/scene_hash.h"
 
 namespace waylight {
@@ -70,6 +70,7 @@ SceneDescription import_mitsuba(const std::string& path, const ImportOptions& op
   mitsuba::SceneAssembly assembly(context);
   for (const mitsuba::Element& element : document.root.children) assembly.import(element);
   assembly.finish();
+  if (options.two_sided) mitsuba::make_two_sided(scene);
   scene.hash = hash_scene(scene);
   return scene;
 }

@@ -17,6 +17,9 @@ void add_import_options(CLI::App& app, SceneArguments& arguments) {
   app.add_flag("--lenient", arguments.lenient,
                "Replace unknown materials by grey and leave unknown shapes out, with a warning")
       ->group("Scene");
+  app.add_flag("--two-sided", arguments.two_sided,
+               "Let opaque materials reflect on both sides, as if each were in \"twosided\"")
+      ->group("Scene");
 }
 
 std::map<std::string, std::string> parse_defines(const std::vector<std::string>& defines) {
@@ -51,6 +54,7 @@ SceneDescription load_scene(const SceneArguments& arguments, const ToolRun& run)
   ImportOptions options;
   options.defines = parse_defines(arguments.defines);
   options.lenient = arguments.lenient;
+  options.two_sided = arguments.two_sided;
   options.on_warning = run.control.on_warning;
   return import_mitsuba(arguments.path, options);
 }

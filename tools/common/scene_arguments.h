@@ -14,10 +14,11 @@ struct SceneArguments {
   std::string path;
   std::vector<std::string> defines;  // "name=value"
   bool lenient = false;
+  bool two_sided = false;
   bool ignore_media = false;
 };
 
-// SCENE, -D name=value (repeatable), --lenient.
+// SCENE, -D name=value (repeatable), --lenient, --two-sided.
 void add_scene(CLI::App& app, SceneArguments& arguments);
 // --ignore-media, for the tools that trace rays.
 void add_ignore_media(CLI::App& app, SceneArguments& arguments);
