@@ -49,6 +49,18 @@ int lobe_count(const SceneDescription& scene, int index) {
   return std::min(both ? first + second : std::max(first, second), Bsdf::kMaxLobes + 1);
 }
 
+// Mitsuba reads the colours of a picture as opacity; exporters often mean its alpha channel.
+void warn_of_alpha(const ImportContext& context, const Element& mask, const Texture& opacity) {
+  const auto* texture = std::get_if<BitmapTexture>(&opacity.source);
+  if (!texture) return;
+  const std::vector<float>& alpha = texture->bitmap->alpha;
+  if (std::any_of(alpha.begin(), alpha.end(), [](float a) { return a < 1; }))
+    context.warn(fmt::format(
+        "{}: the colours of its picture are the opacity, not its alpha channel; if that is meant, "
+        "give the texture <string name=\"channel\" value=\"a\"/>",
+        mask.where()));
+}
+
 // Walks over wrapped materials cost a step each at every shading point.
 void check_depth(const SceneDescription& scene, const Element& element, int index, int depth) {
   constexpr int kMaxDepth = 12;
@@ -91,7 +103,9 @@ MaterialModel import_two_sided(ImportContext& context, Properties& properties) {
 MaterialModel import_mask(ImportContext& context, Properties& properties) {
   const int nested = nested_material(context, properties);
   check_depth(context.scene, properties.element(), nested, 1);
-  return MaskMaterial{nested, texture_property(context, properties, "opacity", Texture(0.5f))};
+  const Texture opacity = texture_property(context, properties, "opacity", Texture(0.5f));
+  warn_of_alpha(context, properties.element(), opacity);
+  return MaskMaterial{nested, opacity};
 }
 
 MaterialModel import_blend(ImportContext& context, Properties& properties) {

@@ -59,6 +59,7 @@ std::shared_ptr<const Bitmap> extract(Properties& properties, const Bitmap& bitm
   auto grey = std::make_shared<Bitmap>(bitmap);
   for (size_t i = 0; i < grey->pixels.size(); ++i)
     grey->pixels[i] = Color::Constant(channel == 3 ? bitmap.alpha[i] : bitmap.pixels[i][channel]);
+  grey->alpha.clear();
   return grey;
 }
 

@@ -33,6 +33,22 @@ TEST(MitsubaTextures, TheBottomRowOfABitmapIsAtVZero) {
   }
 }
 
+TEST(MitsubaTextures, AMaskWhoseAlphaChannelIsNotReadIsWarnedOf) {
+  const auto warnings = [](const std::string& channel) {
+    Content content(Dialect::old);
+    Image image(2, 1, {"R", "G", "B", "A"});
+    image.pixels = {1, 1, 1, 0, 0, 1, 0, 1};
+    write_exr(content.file("leaf.exr"), image, {});
+    content.import(
+        "<bsdf type=\"mask\"><bsdf type=\"diffuse\"/><texture type=\"bitmap\" name=\"opacity\">"
+        "<string name=\"filename\" value=\"leaf.exr\"/>" +
+        channel + "</texture></bsdf>");
+    return content.warnings.size();
+  };
+  EXPECT_EQ(warnings(""), 1u);
+  EXPECT_EQ(warnings("<string name=\"channel\" value=\"a\"/>"), 0u);
+}
+
 TEST(MitsubaTextures, PicturesAreSrgbUnlessRawOrOfGammaOne) {
   const float linear = srgb_to_linear(128 / 255.0f), raw = 128 / 255.0f;
   const auto grey = [](const Texture& t) { return t.eval(kBottomRight).x(); };
