@@ -116,8 +116,13 @@ TEST_P(SlowReferenceMeans, AgreeWithinTheNoise) {
   RecordProperty("ratio", std::to_string(ratio));
 }
 
-// The windows leave out what the references have otherwise: leaves cut out by an alpha channel,
-// which Mitsuba does not read there.
+// The windows were chosen after looking at whole images, where the programs agree: this guards what
+// agrees and is no proof for the rest. Left out, with ratios of larger renders:
+//   living room   leaves cut out by an alpha channel that Mitsuba does not read there, a hearth that
+//                 is a mirror in the file and black in the reference; panels and ceiling by the
+//                 windows at 0.82 to 0.92, unexplained
+//   kitchen       the left part at 1.02 to 1.15, whole image 1.05, unexplained
+//   veach-ajar    the glass teapot at 1.15, left wall and floor at 0.94 to 1.07, unexplained
 constexpr Case kCases[] = {
     {"cornell-box/scene.xml", "cornell-box/TungstenRender.exr", 64, 64, 256, 0, {}, 0.005},
     {"veach-ajar/scene_complete.xml",
