@@ -118,7 +118,8 @@ TEST_P(SlowReferenceMeans, AgreeWithinTheNoise) {
 
 // The windows were chosen after looking at whole images, where the programs agree: this guards what
 // agrees and is no proof for the rest. Left out, with ratios of larger renders:
-//   living room   leaves cut out by an alpha channel that Mitsuba does not read there, a hearth that
+//   living room   leaves cut out by an alpha channel that Mitsuba does not read there, a hearth
+//   that
 //                 is a mirror in the file and black in the reference; panels and ceiling by the
 //                 windows at 0.82 to 0.92, unexplained
 //   kitchen       the left part at 1.02 to 1.15, whole image 1.05, unexplained
