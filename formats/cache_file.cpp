@@ -52,7 +52,7 @@ fbs::CellTraining to_flat(const CellTraining& t) {
           t.count,
           t.flux,
           t.born,
-          t.inherited_irradiance,
+          t.inherited_area,
           t.step,
           t.samples,
           t.weight_sum,

@@ -27,9 +27,15 @@ constexpr float kInheritedStep = 5;
 // and the photons agree about it: where they do not, it would only wander.
 constexpr float kTurnCosine = 0.9962f, kTurnAgreement = 0.5f;
 
-// Photons before the irradiance of a cell is its own: the area of n photons has a relative standard
-// deviation of about 1 / sqrt(n).
-constexpr float kOwnIrradiancePhotons = 32;
+// Photons before the area of a cell is its own: that of n photons has a relative standard deviation
+// of about 1 / sqrt(n).
+constexpr float kOwnAreaPhotons = 32;
+
+// What the parent knew of the irradiance counts like so many photons.
+constexpr double kInheritedPhotons = 8;
+
+// Photons that tell on which side of a surface a new cell lies.
+constexpr float kOwnSidePhotons = 8;
 
 int components_for(float effective_samples, const CellTrainingOptions& options) {
   const float supported = std::max(effective_samples / kSamplesPerComponent, 1.0f);
@@ -62,6 +68,7 @@ size_t TrainingCell::absorb(std::span<const Photon> block, std::span<const uint3
   MomentBatch moments(training_, block[indices.front()]);
   for (uint32_t i : indices) moments.add(block[i], luminance(block[i].power) * emitted);
   moments.merge_into(training_);
+  if (on_other_side()) forget_mixture();
   size_t capped = 0;
   for (uint32_t i : indices) {
     if (!guides(block[i], options)) continue;
@@ -69,6 +76,22 @@ size_t TrainingCell::absorb(std::span<const Photon> block, std::span<const uint3
     if (pending_count_ == kBatchSize) capped += update(options);
   }
   return capped;
+}
+
+// A child may lie on the other side of the wall that its parent knew.
+bool TrainingCell::on_other_side() const {
+  return training_.step > 0 && training_.count >= kOwnSidePhotons &&
+         training_.normal_mean.norm() > kTurnAgreement &&
+         mean_normal(training_, cell_.normal).dot(cell_.normal) < kMinNormalCosine;
+}
+
+void TrainingCell::forget_mixture() {
+  cell_.component_count = 0;
+  cell_.photon_count = 0;
+  training_.step = training_.samples = 0;
+  training_.weight_sum = training_.weight_sum2 = 0;
+  pending_count_ = 0;
+  weigh_evidence();
 }
 
 size_t TrainingCell::flush(const CellTrainingOptions& options) {
@@ -185,8 +208,9 @@ TrainingCell TrainingCell::child(const CellSplit& split, double now, double min_
   TrainingCell child;
   child.cell_.normal = cell_.normal;
   child.training_.born = now;
+  child.training_.inherited_area = static_cast<float>(std::max(photon_area(training_), min_area));
   if (split.by_normal()) return child;
-  child.training_.inherited_irradiance = irradiance(now, min_area);
+  inherit_irradiance(child.training_, now, min_area);
   child.cell_.photon_count = 0.5f * cell_.photon_count;
   child.training_.weight_sum = 0.5 * training_.weight_sum;
   child.training_.weight_sum2 = 0.5 * training_.weight_sum2;
@@ -202,9 +226,20 @@ TrainingCell TrainingCell::child(const CellSplit& split, double now, double min_
   return child;
 }
 
+// As if the child had seen kInheritedPhotons of its half of the parent's photons: where it is dark
+// and the rest of the parent is not, the time without photons soon outweighs them.
+void TrainingCell::inherit_irradiance(CellTraining& child, double now, double min_area) const {
+  child.inherited_area *= 0.5f;
+  const double photons_of_all = (now - training_.born) / training_.count;  // per photon of the cell
+  const double exposure = 2 * kInheritedPhotons * photons_of_all;
+  child.flux = irradiance(now, min_area) * child.inherited_area * exposure;
+  child.born = now - exposure;
+}
+
 float TrainingCell::irradiance(double now, double min_area) const {
-  if (training_.count < kOwnIrradiancePhotons) return training_.inherited_irradiance;
-  const double spread = std::max(photon_area(training_), min_area) * (now - training_.born);
+  const bool own = training_.count >= kOwnAreaPhotons || training_.inherited_area <= 0;
+  const double area = own ? photon_area(training_) : training_.inherited_area;
+  const double spread = std::max(area, min_area) * (now - training_.born);
   const double limit = std::numeric_limits<float>::max();
   return spread > 0 ? static_cast<float>(std::min(training_.flux / spread, limit)) : 0.0f;
 }

@@ -46,7 +46,7 @@ class TrainingCell {
   TrainingCell child(const CellSplit& split, double now, double min_area,
                      const CellTrainingOptions& options) const;
 
-  // Weight per area and photon of the stream; until a cell has seen enough by itself, its parent's.
+  // Weight per area and photon of the stream, with a few photons' worth of what its parent knew.
   // Photons on less than min_area count as spread over it.
   float irradiance(double now, double min_area) const;
 
@@ -69,7 +69,10 @@ class TrainingCell {
   bool guides(const Photon& photon, const CellTrainingOptions& options) const;
   size_t update(const CellTrainingOptions& options);
   float weight_cap(std::span<const WeightedPoint> batch) const;
+  bool on_other_side() const;
+  void forget_mixture();
   void turn_to_photons();
+  void inherit_irradiance(CellTraining& child, double now, double min_area) const;
   void weigh_evidence();
   std::span<WeightedPoint> batch_on_disk(Batch& batch) const;
   void begin(std::span<const WeightedPoint> batch, float effective_samples,

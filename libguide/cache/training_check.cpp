@@ -22,7 +22,7 @@ bool finite_and_not_negative(double v) { return std::isfinite(v) && v >= 0; }
 
 std::string fault_of(const CacheCell& cell, const CellTraining& t, double photons) {
   if (!valid_moments(t)) return "moments that are not finite or negative";
-  for (double v : {double{t.count}, t.flux, double{t.inherited_irradiance}, t.weight_sum,
+  for (double v : {double{t.count}, t.flux, double{t.inherited_area}, t.weight_sum,
                    t.weight_sum2, double{t.step}, double{t.samples}})
     if (!finite_and_not_negative(v)) return "a sum that is negative or not finite";
   if (!(t.born >= 0 && t.born <= photons)) return "made after the last photon";

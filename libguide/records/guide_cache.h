@@ -36,9 +36,11 @@ struct CellTraining {
   Vec3 position_mean = Vec3::Zero(), position_m2 = Vec3::Zero(), position_cross = Vec3::Zero();
   Vec3 normal_mean = Vec3::Zero(), normal_m2 = Vec3::Zero();
   float count = 0;
-  double flux = 0;                 // sum of weights since the cell was made
-  double born = 0;                 // photons of the whole training when the cell was made
-  float inherited_irradiance = 0;  // of the parent, in weight per area and photon
+  // Sum of weights since the cell was made, and photons of the whole training when it was made. A
+  // cell made by a split of the position begins as if it had seen a few photons like its parent's.
+  double flux = 0;
+  double born = 0;
+  float inherited_area = 0;  // share of the parent's area, until the cell's own is known
   float step = 0;                  // stepwise-EM updates made so far; 0 is no mixture yet
   float samples = 0;               // effective number of photons that the EM statistics stand for
   // Sums over the photons that the mixture saw, half of the parent's included.

@@ -6,6 +6,7 @@ namespace {
 constexpr int kMaxCrossings = 1000;       // transparent surfaces in a row before a path is given up
 constexpr int kUnlimitedDepth = 1 << 20;  // bound of "no limit": roulette ends paths long before
 constexpr float kMinSurvival = 0.05f;
+constexpr float kMinGuidedSurvival = 0.1f;  // a cell's irradiance may be off by far
 // A path goes on for certain while it promises at least a third of what is expected of its pixel:
 // the lower end 2 / (1 + s) of the weight window with s = 5 [Vorba, Krivanek 2016].
 constexpr float kWindow = 3;
@@ -155,7 +156,7 @@ bool PathTracer::survives_guided(State& state, const DirectionSampler& direction
   const float expected = luminance(state.throughput) * estimate;
   if (state.pixel_estimate <= 0) state.pixel_estimate = expected;
   const float q = expected / state.pixel_estimate;
-  return play(state, std::clamp(kWindow * q, kMinSurvival, 1.0f), sampler);
+  return play(state, std::clamp(kWindow * q, kMinGuidedSurvival, 1.0f), sampler);
 }
 
 // By the throughput that BSDF sampling would have had: a guided path's own throughput is low by

@@ -38,7 +38,8 @@ void PhotonTracer::trace(Sampler& sampler, std::vector<Photon>* photons,
     }
     const ResolvedBsdf resolved =
         scene_.bsdf(*at, -particle.ray.direction, TransportMode::importance);
-    if (resolved.bsdf.has_smooth()) store(particle, *at, photons, counts);
+    if (resolved.bsdf.has_smooth() && !is_black(resolved.bsdf.mean_reflectance()))
+      store(particle, *at, photons, counts);
     if (static_cast<int>(particle.depth) + 1 >= max_depth_) {
       ++counts->too_deep;
       return;

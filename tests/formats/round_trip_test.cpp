@@ -42,7 +42,7 @@ void expect_equal(const CellTraining& a, const CellTraining& b) {
   EXPECT_EQ(a.count, b.count);
   EXPECT_EQ(a.flux, b.flux);
   EXPECT_EQ(a.born, b.born);
-  EXPECT_EQ(a.inherited_irradiance, b.inherited_irradiance);
+  EXPECT_EQ(a.inherited_area, b.inherited_area);
   EXPECT_EQ(a.step, b.step);
   EXPECT_EQ(a.samples, b.samples);
   EXPECT_EQ(a.weight_sum, b.weight_sum);

@@ -43,7 +43,7 @@ inline CacheFile small_cache() {
     CellTraining& t = c.training[i];
     t.position_mean = Vec3(1, 2, 3 + i), t.position_m2 = Vec3(4, 5, 6);
     t.position_cross = Vec3(-7, 8, 9), t.normal_mean = Vec3(0, 1, 0), t.normal_m2 = Vec3(1, 2, 3);
-    t.count = 10, t.flux = 1e300, t.born = 5, t.inherited_irradiance = 2;
+    t.count = 10, t.flux = 1e300, t.born = 5, t.inherited_area = 2;
     t.step = 3, t.samples = 50, t.weight_sum = 1.0 / 3, t.weight_sum2 = 0.125;
   }
   return file;

@@ -115,7 +115,7 @@ std::string bytes_of(const GuideCache& cache) {
          {&t.position_mean, &t.position_m2, &t.position_cross, &t.normal_mean, &t.normal_m2})
       append(bytes, *v);
     for (double v : {t.flux, t.born, t.weight_sum, t.weight_sum2}) append(bytes, v);
-    for (float v : {t.count, t.inherited_irradiance, t.step, t.samples}) append(bytes, v);
+    for (float v : {t.count, t.inherited_area, t.step, t.samples}) append(bytes, v);
   }
   return bytes;
 }
