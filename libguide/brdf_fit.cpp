@@ -71,6 +71,12 @@ void warn_of_means(const Material& material, const LobeTraits& traits, const Run
                              material.name));
 }
 
+// Of the front, where the material is two-sided.
+const char* fitted_kind(const SceneDescription& scene, int material) {
+  const auto* two_sided = std::get_if<TwoSidedMaterial>(&scene.materials[material].model);
+  return material_kind(scene.materials[two_sided ? two_sided->front : material]);
+}
+
 // Lays out in the cache what was fitted, material by material.
 class Assembly {
  public:
@@ -81,8 +87,8 @@ class Assembly {
   // The next fit of the plan, with the entries made for it; none where an earlier one serves it.
   void add(const PlannedFit& fit, std::span<const EntryFit> entries) {
     const Material& material = scene_.materials[fit.material];
-    MaterialFit record{static_cast<uint32_t>(fit.material), material.name, material_kind(material),
-                       fit.traits.textured};
+    MaterialFit record{static_cast<uint32_t>(fit.material), material.name,
+                       fitted_kind(scene_, fit.material), fit.traits.textured};
     MaterialFitSummary summary;
     summary.name = record.name, summary.kind = record.kind, summary.textured = record.textured;
     if (fit.same_as >= 0)

@@ -2,6 +2,6 @@
 NAME := gap-room
 SCENE := pipelines/scenes/gap-room.xml
 REFERENCE ?= pipelines/references/gap-room.exr
-PHOTONS ?= 4000000
+PHOTONS ?= 1000000
 
 include $(dir $(lastword $(MAKEFILE_LIST)))rules.mk

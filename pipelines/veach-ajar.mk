@@ -4,7 +4,7 @@ WAYLIGHT_SCENES ?= ../shared/scenes
 NAME := veach-ajar
 SCENE := $(WAYLIGHT_SCENES)/veach-ajar/scene_complete.xml
 SIZE ?= 640x360
-PHOTONS ?= 8000000
+PHOTONS ?= 4000000
 TIMES ?= 15 30 60
 
 include $(dir $(lastword $(MAKEFILE_LIST)))rules.mk

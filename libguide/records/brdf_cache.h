@@ -22,7 +22,7 @@ struct BrdfCacheEntry {
 struct MaterialFit {
   uint32_t material = 0;  // index of the material in the scene
   std::string name;       // id of the material in the scene file
-  std::string kind;       // its type, for example "roughconductor"
+  std::string kind;       // its type, of the front where two-sided: "roughconductor"
   bool textured = false;  // fitted at mean parameters
   uint32_t first_entry = 0, entry_count = 0;
 };

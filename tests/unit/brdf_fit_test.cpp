@@ -320,7 +320,7 @@ TEST(BrdfFit, OnlyMaterialsThatShapesShowAreFitted) {
   ASSERT_EQ(cache.materials.size(), 1u);
   EXPECT_EQ(cache.materials[0].name, "wall");
   EXPECT_EQ(cache.materials[0].material, 2u);
-  EXPECT_EQ(cache.materials[0].kind, "twosided");
+  EXPECT_EQ(cache.materials[0].kind, "roughconductor");
 }
 
 TEST(BrdfFit, ABackThatDiffersHasAFitOfItsOwn) {
