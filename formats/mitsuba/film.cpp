@@ -43,7 +43,7 @@ void import_filter(ImportContext& context, const Element& element, FilmDescripti
 bool replace_filter(ImportContext& context, const Element& element, FilmDescription& film) {
   if (element.type != "catmullrom" && element.type != "lanczos") return false;
   if (!context.options.lenient)
-    fail_at(element, "is not implemented; use mitchell, or --lenient to have it replaced");
+    fail_at(element, "is not supported; use mitchell, or --lenient to have it replaced");
   context.warn(fmt::format("{}: replaced by mitchell with B = 0, C = 1/2", element.where()));
   film.filter = FilterType::mitchell;
   film.filter_b = 0;
