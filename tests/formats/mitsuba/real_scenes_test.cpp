@@ -39,6 +39,8 @@ fs::path scenes_folder() {
   return fs::path(WAYLIGHT_SOURCE_DIR) / ".." / "shared" / "scenes";
 }
 
+void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.file; }
+
 class RealScenes : public ::testing::TestWithParam<Expected> {};
 
 TEST_P(RealScenes, AreImportedWithoutLeniency) {
