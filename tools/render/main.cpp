@@ -25,18 +25,6 @@ Examples:
   render room.xml -o plain.exr --spp 256
   render room.xml -o guided.exr --mode product --cache room.cache --brdf room.brdf --time 60)"};
 
-void declare_stopping(CLI::App& app, RenderOptions& options) {
-  app.add_option("--spp", options.spp, "Samples per pixel")
-      ->check(CLI::Range(1, 1 << 24))
-      ->default_str("");
-  app.add_option("--time", options.time, "Seconds of rendering")
-      ->check(CLI::PositiveNumber)
-      ->default_str("");
-  app.add_option("--error", options.error, "Estimated relMSE to reach")
-      ->check(CLI::PositiveNumber)
-      ->default_str("");
-}
-
 void declare(CLI::App& app, RenderArguments& arguments) {
   RenderOptions& options = arguments.options;
   add_scene(app, arguments.scene);
@@ -49,7 +37,7 @@ void declare(CLI::App& app, RenderArguments& arguments) {
   add_roulette(app, options.roulette);
   as_input(app.add_option("--cache", arguments.cache, "Illumination cache"));
   as_input(app.add_option("--brdf", arguments.brdf, "Fitted BSDFs"));
-  declare_stopping(app, options);
+  add_stopping(app, options);
   add_frame(app, arguments);
   app.add_option("--seed", options.seed, "Seed of the random numbers");
   app.add_option("--max-depth", options.max_depth, "Path edges; -1: no limit, -2: the scene's");

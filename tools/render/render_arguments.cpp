@@ -66,6 +66,18 @@ void add_roulette(CLI::App& app, RouletteMode& mode) {
       "Russian roulette; auto: guided where there is a cache");
 }
 
+void add_stopping(CLI::App& app, RenderOptions& options) {
+  app.add_option("--spp", options.spp, "Samples per pixel")
+      ->check(CLI::Range(1, 1 << 24))
+      ->default_str("");
+  app.add_option("--time", options.time, "Seconds of rendering")
+      ->check(CLI::PositiveNumber)
+      ->default_str("");
+  app.add_option("--error", options.error, "Estimated relMSE to reach")
+      ->check(CLI::PositiveNumber)
+      ->default_str("");
+}
+
 void add_frame(CLI::App& app, RenderArguments& frame) {
   app.add_option("--size", frame.size, "Size of the image")->type_name("WxH");
   app.add_option("--crop", frame.crop, "Render this window only, in pixels of the whole image")

@@ -13,9 +13,10 @@ struct RenderArguments {
   RenderOptions options;
 };
 
-void add_mode(CLI::App& app, RenderMode& mode);         // --mode
-void add_roulette(CLI::App& app, RouletteMode& mode);   // --rr
-void add_frame(CLI::App& app, RenderArguments& frame);  // --size, --crop, --aov
+void add_mode(CLI::App& app, RenderMode& mode);            // --mode
+void add_roulette(CLI::App& app, RouletteMode& mode);      // --rr
+void add_stopping(CLI::App& app, RenderOptions& options);  // --spp, --time, --error
+void add_frame(CLI::App& app, RenderArguments& frame);     // --size, --crop, --aov
 
 void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arguments);
 
