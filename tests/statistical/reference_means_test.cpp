@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "common/scenes_folder.h"
 #include "formats/image_io.h"
 #include "formats/mitsuba.h"
 #include "libguide/brdf_fit.h"
@@ -17,11 +18,6 @@ namespace waylight {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path scenes_folder() {
-  if (const char* folder = std::getenv("WAYLIGHT_SCENES")) return folder;
-  return fs::path(WAYLIGHT_SOURCE_DIR) / ".." / "shared" / "scenes";
-}
 
 // Fractions of the image.
 struct Region {
@@ -50,7 +46,8 @@ void restore_lamp(SceneDescription& scene) {
 Scene load(const Case& c) {
   ImportOptions options;
   options.two_sided = c.two_sided;
-  SceneDescription description = import_mitsuba((scenes_folder() / c.scene).string(), options);
+  SceneDescription description =
+      import_mitsuba((testing::scenes_folder() / c.scene).string(), options);
   if (c.two_sided) restore_lamp(description);
   return Scene(std::move(description));
 }
@@ -103,10 +100,10 @@ class SlowReferenceMeans : public ::testing::TestWithParam<Case> {};
 
 TEST_P(SlowReferenceMeans, AgreeWithinTheNoise) {
   const Case& c = GetParam();
-  if (!fs::exists(scenes_folder()))
+  if (!fs::exists(testing::scenes_folder()))
     GTEST_SKIP() << "no scenes: set WAYLIGHT_SCENES to their folder";
   const Image image = rendered(load(c), c);
-  const Bitmap whole = color_of(read_image((scenes_folder() / c.reference).string()));
+  const Bitmap whole = color_of(read_image((testing::scenes_folder() / c.reference).string()));
   const PixelWindow part = window(c.region, c);
   const double reference = sum(crop(downsample(whole, c.width, c.height), part));
   const double noise = deviation_of_sum(crop(color_of(image, "variance."), part)) / reference;

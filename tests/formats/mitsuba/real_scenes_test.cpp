@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "common/scenes_folder.h"
 #include "formats/mitsuba/scene_texts.h"
 #include "libguide/scene/scene_check.h"
 
@@ -34,18 +35,13 @@ constexpr Expected kScenes[] = {
      1},
     {"mitsuba-media/tests/scenes/participating_media/test_surf_area_light_volpath.xml", 4, 2, 0}};
 
-fs::path scenes_folder() {
-  if (const char* folder = std::getenv("WAYLIGHT_SCENES")) return folder;
-  return fs::path(WAYLIGHT_SOURCE_DIR) / ".." / "shared" / "scenes";
-}
-
 void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.file; }
 
 class RealScenes : public ::testing::TestWithParam<Expected> {};
 
 TEST_P(RealScenes, AreImportedWithoutLeniency) {
-  const fs::path file = scenes_folder() / GetParam().file;
-  if (!fs::exists(scenes_folder()))
+  const fs::path file = waylight::testing::scenes_folder() / GetParam().file;
+  if (!fs::exists(waylight::testing::scenes_folder()))
     GTEST_SKIP() << "no scenes: set WAYLIGHT_SCENES to their folder";
   SceneDescription scene = import_mitsuba(file.string(), {});
   EXPECT_EQ(scene.shapes.size(), GetParam().shapes);
