@@ -19,10 +19,12 @@
 # SCENE_FLAGS      -D name=value for every tool that reads the scene
 # SIZE             image size
 # SEED             of everything random
+# SEEDS            seeds of the renders, for charts with a band                $(SEED)
 # PHOTONS          particles to emit in one pass
 # TIMES            seconds of the renders in the chart
-# METHODS          render modes to compare
-# BRDF_FIT_FLAGS PHOTON_TRACE_FLAGS CACHE_TRAIN_FLAGS CACHE_REDUCE_FLAGS RENDER_FLAGS
+# METHODS          what to compare: render modes, or names of your own with a mode and flags, as in
+#                  METHODS='product product-8' mode_product-8=product flags_product-8='--max-depth 8'
+# BRDF_FIT_FLAGS PHOTON_TRACE_FLAGS CACHE_TRAIN_FLAGS CACHE_REDUCE_FLAGS RENDER_FLAGS COMPARE_FLAGS
 # REFERENCE        image to compare with; made from REFERENCE_SPP product-guided samples when it is
 #                  not set
 
@@ -36,6 +38,7 @@ BIN ?= build/bin
 LAUNCH ?=
 SIZE ?= 320x180
 SEED ?= 1
+SEEDS ?= $(SEED)
 PHOTONS ?= 1000000
 TIMES ?= 2 4 8 16
 METHODS ?= bsdf illumination product
@@ -62,7 +65,7 @@ $(eval $(call stamp,cache-train,$(CACHE_TRAIN_FLAGS)))
 $(eval $(call stamp,cache-reduce,$(CACHE_REDUCE_FLAGS)))
 $(eval $(call stamp,render,$(SCENE_FLAGS) $(SEED) $(SIZE) $(RENDER_FLAGS)))
 $(eval $(call stamp,reference,$(SCENE_FLAGS) $(SIZE) $(REFERENCE_SPP)))
-$(eval $(call stamp,chart,$(METHODS) $(TIMES)))
+$(eval $(call stamp,chart,$(METHODS) $(TIMES) $(SEEDS)))
 
 $(OUT)/scene.brdf $(OUT)/brdf-fit.json &: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/brdf-fit \
     $(BIN)/brdf-fit
@@ -89,34 +92,41 @@ $(OUT)/reduced.% $(OUT)/cache-reduce-%.json: $(OUT)/scene.% $(OUT)/.options/cach
 caches_bsdf :=
 caches_illumination := $(OUT)/reduced.cache
 caches_product := $(OUT)/reduced.cache $(OUT)/reduced.brdf
-cache_flags_bsdf :=
-cache_flags_illumination := --cache $(OUT)/reduced.cache
-cache_flags_product := --cache $(OUT)/reduced.cache --brdf $(OUT)/reduced.brdf
 preprocess_bsdf :=
 preprocess_illumination := $(foreach s,photon-trace cache-train cache-reduce-cache,$(OUT)/$(s).json)
 preprocess_product := $(preprocess_illumination) \
   $(foreach s,brdf-fit cache-reduce-brdf,$(OUT)/$(s).json)
+cache_flags = $(patsubst %.brdf,--brdf %.brdf,$(patsubst %.cache,--cache %.cache,$(1)))
 cache: $(caches_product) $(preprocess_product)
 
-# $(call render_rule,mode): images at each time, MODE-SECONDSs.exr, and their figures.
-define render_rule
-$(OUT)/$(1)-%s.exr $(OUT)/$(1)-%s.json: $(SCENE) $(SCENE_INPUTS) $$(caches_$(1)) \
-    $(OUT)/.options/render $(BIN)/render
-	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $(OUT)/$(1)-$$*s.exr --mode $(1) \
-	  $$(cache_flags_$(1)) --time $$* --size $(SIZE) --seed $(SEED) --aov variance \
-	  --png $(OUT)/$(1)-$$*s.png --stats $(OUT)/$(1)-$$*s.json $(RENDER_FLAGS) $(QUIET)
+# Name of an image: METHOD-SECONDSs, and its seed where that is not SEED.
+seed_suffix = $(if $(filter-out $(SEED),$(1)),-seed$(1))
 
-$(OUT)/$(1)-%s.csv: $(OUT)/$(1)-%s.exr $(OUT)/$(1)-%s.json $(REFERENCE) $$(preprocess_$(1)) \
+# $(call render_rule,method,mode,seed): images of any time and their figures.
+define render_rule
+$(OUT)/$(1)-%s$(call seed_suffix,$(3)).exr $(OUT)/$(1)-%s$(call seed_suffix,$(3)).json: \
+    $(SCENE) $(SCENE_INPUTS) $$(caches_$(2)) $(OUT)/.options/render $(OUT)/.options/render-$(1) \
+    $(BIN)/render
+	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $$(basename $$@).exr --mode $(2) \
+	  $$(call cache_flags,$$(caches_$(2))) --time $$* --size $(SIZE) --seed $(3) --aov variance \
+	  --png $$(basename $$@).png --stats $$(basename $$@).json $(flags_$(1)) $(RENDER_FLAGS) \
+	  $(QUIET)
+
+$(OUT)/$(1)-%s$(call seed_suffix,$(3)).csv: $(OUT)/$(1)-%s$(call seed_suffix,$(3)).exr \
+    $(OUT)/$(1)-%s$(call seed_suffix,$(3)).json $(REFERENCE) $$(preprocess_$(2)) \
     $(BIN)/image-compare
 	@rm -f $$@.tmp
-	$$(LAUNCH) $(BIN)/image-compare $(OUT)/$(1)-$$*s.exr $(REFERENCE) \
-	  --render-stats $(OUT)/$(1)-$$*s.json $$(preprocess_$(1):%=--preprocess-stats %) \
-	  --label scene=$(NAME) --label method=$(1) --error-image $(OUT)/$(1)-$$*s-error.png \
-	  --csv $$@.tmp && mv $$@.tmp $$@
+	$$(LAUNCH) $(BIN)/image-compare $$(basename $$@).exr $(REFERENCE) \
+	  --render-stats $$(basename $$@).json $$(preprocess_$(2):%=--preprocess-stats %) \
+	  --label scene=$(NAME) --label method=$(1) --error-image $$(basename $$@)-error.png \
+	  --csv $$@.tmp $(COMPARE_FLAGS) && mv $$@.tmp $$@
 endef
-$(foreach mode,$(METHODS),$(eval $(call render_rule,$(mode))))
+mode_of = $(or $(mode_$(1)),$(1))
+$(foreach m,$(METHODS),$(eval $(call stamp,render-$(m),$(call mode_of,$(m)) $(flags_$(m)))) \
+  $(foreach s,$(SEEDS),$(eval $(call render_rule,$(m),$(call mode_of,$(m)),$(s)))))
 
-renders := $(foreach m,$(METHODS),$(foreach t,$(TIMES),$(OUT)/$(m)-$(t)s))
+renders := $(foreach m,$(METHODS),$(foreach t,$(TIMES),$(foreach s,$(SEEDS),\
+  $(OUT)/$(m)-$(t)s$(call seed_suffix,$(s)))))
 figures := $(renders:=.csv)
 images: $(renders:=.exr) $(renders:=.json)
 
@@ -128,7 +138,8 @@ $(OUT)/$(NAME).svg: $(OUT)/$(NAME).csv $(BIN)/chart
 
 $(OUT)/reference.exr: $(SCENE) $(SCENE_INPUTS) $(caches_product) $(OUT)/.options/reference \
     $(BIN)/render
-	$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $@ --mode product $(cache_flags_product) \
+	$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $@ --mode product \
+	  $(call cache_flags,$(caches_product)) \
 	  --spp $(REFERENCE_SPP) --size $(SIZE) --seed 1000003 --aov variance \
 	  --stats $(OUT)/reference.json $(QUIET)
 

@@ -68,6 +68,17 @@ must_run PHOTONS=30000 TIMES=0.05
 expect "fewer TIMES" "chart"
 must_run PHOTONS=30000 METHODS=product
 expect "fewer METHODS" "chart"
+variant=(PHOTONS=30000 METHODS='product product-short' mode_product-short=product
+         flags_product-short='--max-depth 3')
+must_run "${variant[@]}"
+expect "a method with flags of its own" "chart image-compare render"
+must_run "${variant[@]}" SEEDS='1 2'
+expect "one more seed" "chart image-compare render"
+if [[ $(grep -c '^ *bin/render' log) != 4 || ! -s out/gap-room/product-short-0.1s-seed2.exr ]]; then
+  echo "FAIL gap-room: a seed more is one render for each method and time"; cat log; ((++failures))
+fi
+must_run "${variant[@]}" SEEDS='1 2'
+expect "the seeds again" ""
 touch pipelines/scenes/gap-room.xml
 must_run
 expect "a touched scene" "$everything"
@@ -109,7 +120,7 @@ fi
 
 # The other pipelines, once and not again.
 others=(jewelry)
-[[ -n ${WAYLIGHT_SCENES:-} ]] && others+=(veach-ajar kitchenette)
+[[ -n ${WAYLIGHT_SCENES:-} ]] && others+=(veach-ajar kitchenette living-room)
 for pipeline in "${others[@]}"; do
   once=(TIMES=0.05 'METHODS=bsdf illumination product')
   must_run "${once[@]}"

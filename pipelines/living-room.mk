@@ -1,0 +1,10 @@
+# A living room behind glass doors, from a folder of scenes made elsewhere:
+#   make -f pipelines/living-room.mk WAYLIGHT_SCENES=/folder/of/scenes
+WAYLIGHT_SCENES ?= ../shared/scenes
+NAME := living-room
+SCENE := $(WAYLIGHT_SCENES)/living-room/scene.xml
+SIZE ?= 640x360
+PHOTONS ?= 8000000
+TIMES ?= 15 30 60
+
+include $(dir $(lastword $(MAKEFILE_LIST)))rules.mk
