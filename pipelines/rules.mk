@@ -145,3 +145,5 @@ $(OUT)/reference.exr: $(SCENE) $(SCENE_INPUTS) $(caches_product) $(OUT)/.options
 
 clean:
 	rm -rf $(OUT)
+
+include $(ROOT)/studies.mk

@@ -118,6 +118,21 @@ if [[ $(grep -c '^ *bin/render' log) != 3 ]]; then
   echo "FAIL gap-room: three of four renders were left to do"; cat log; ((++failures))
 fi
 
+# Studies and tables.
+small=(SCENES=gap-room SECONDS=0.05 SEEDS=1 BIN=bin OUT=out/paper
+       'options_gap-room=SIZE=64x32 PHOTONS=20000 REFERENCE_SPP=4 STUDY_SPP=2 UNBIASED_SPP=4 '
+       THRESHOLDS='0 50' QUIET=-q)
+small[-3]+='BRDF_FIT_FLAGS="--elevations 8"'
+if ! make --no-print-directory -f pipelines/surface-paper.mk "${small[@]}" > log 2>&1; then
+  echo "FAIL surface-paper: make failed"; cat log; ((++failures))
+fi
+for table in equal-time preprocessing overhead unbiased; do
+  [[ $(grep -c '^| gap-room' "out/paper/$table.md") -ge 1 ]] ||
+    { echo "FAIL surface-paper: no gap-room in $table.md"; ((++failures)); }
+done
+[[ $(wc -l < out/paper/gap-room/reduction.csv) == 3 && -s out/paper/gap-room/reduction.svg ]] ||
+  { echo "FAIL surface-paper: no study of reduction"; ((++failures)); }
+
 # The other pipelines, once and not again.
 others=(jewelry)
 [[ -n ${WAYLIGHT_SCENES:-} ]] && others+=(veach-ajar kitchenette living-room)

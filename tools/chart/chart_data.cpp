@@ -1,5 +1,7 @@
 #include "tools/chart/chart_data.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,7 +13,7 @@
 namespace waylight {
 namespace {
 
-constexpr double kEqualSeconds = 1.05;  // ratio
+constexpr double kEqualSeconds = 0.05;  // relative
 
 struct Row {
   std::string scene, method;
@@ -21,7 +23,7 @@ struct Row {
 int column_of(const CsvTable& table, const std::string& name, const std::string& path) {
   const int column = table.find(name);
   if (column < 0)
-    fail("\"{}\": has no column \"{}\"; `image-compare --csv` writes such tables", path, name);
+    fail("\"{}\": has no column \"{}\" among {}", path, name, fmt::join(table.columns, ", "));
   return column;
 }
 
@@ -33,50 +35,51 @@ double number_in(const std::string& cell, const std::string& what) {
   return value;
 }
 
-double positive_in(const std::string& cell, const std::string& what) {
+double coordinate_in(const std::string& cell, bool linear, const std::string& what) {
   const double value = number_in(cell, what);
-  if (!(value > 0)) fail("{} is {}, which a logarithmic axis cannot show", what, cell);
+  if (!linear && !(value > 0)) fail("{} is {}, which a logarithmic axis cannot show", what, cell);
   return value;
 }
 
 void read_rows(const std::string& path, const ChartOptions& options, std::vector<Row>& rows) {
   const CsvTable table = read_csv(path);
   const int x = column_of(table, options.x, path), y = column_of(table, options.y, path);
-  const int method = column_of(table, "method", path), scene = table.find("scene");
+  const int method = column_of(table, options.lines, path), scene = table.find("scene");
   const int preprocess = options.preprocess ? column_of(table, "preprocess_seconds", path) : -1;
   for (size_t i = 0; i < table.rows.size(); ++i) {
     const std::vector<std::string>& cells = table.rows[i];
     const auto what = [&](const std::string& column) {
       return fmt::format("\"{}\": record {}: {}", path, i + 2, column);
     };
-    Row row{scene < 0 ? "" : cells[scene], cells[method], positive_in(cells[x], what(options.x)),
-            positive_in(cells[y], what(options.y))};
+    Row row{scene < 0 ? "" : cells[scene], cells[method],
+            coordinate_in(cells[x], options.is_linear('x'), what(options.x)),
+            coordinate_in(cells[y], options.is_linear('y'), what(options.y))};
     if (preprocess >= 0 && !cells[preprocess].empty())
       row.x += number_in(cells[preprocess], what("preprocess_seconds"));
     rows.push_back(std::move(row));
   }
 }
 
-ChartPoint merge(const Row* first, const Row* last) {
-  ChartPoint point{0, 0, first->y, first->y, static_cast<int>(last - first)};
+// The geometric mean of y, or on a linear axis the arithmetic one.
+ChartPoint merge(const Row* first, const Row* last, bool linear_y) {
+  ChartPoint point{first->x, 0, first->y, first->y, static_cast<int>(last - first)};
   for (const Row* row = first; row != last; ++row) {
-    point.x += std::log(row->x) / point.rows;
-    point.y += std::log(row->y) / point.rows;
+    point.y += (linear_y ? row->y : std::log(row->y)) / point.rows;
     point.low = std::min(point.low, row->y);
     point.high = std::max(point.high, row->y);
   }
-  point.x = std::exp(point.x);
-  point.y = std::exp(point.y);
+  if (!linear_y) point.y = std::exp(point.y);
+  for (const Row* row = first + 1; row != last; ++row) point.x += (row->x - first->x) / point.rows;
   return point;
 }
 
-std::vector<ChartPoint> merge_equal(std::vector<Row> rows, double equal_ratio) {
+std::vector<ChartPoint> merge_equal(std::vector<Row> rows, double tolerance, bool linear_y) {
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.x < b.x; });
   std::vector<ChartPoint> points;
   for (size_t begin = 0; begin < rows.size();) {
     size_t end = begin + 1;
-    while (end < rows.size() && rows[end].x <= rows[begin].x * equal_ratio) ++end;
-    points.push_back(merge(&rows[begin], &rows[begin] + (end - begin)));
+    while (end < rows.size() && rows[end].x - rows[begin].x <= rows[begin].x * tolerance) ++end;
+    points.push_back(merge(&rows[begin], &rows[begin] + (end - begin), linear_y));
     begin = end;
   }
   return points;
@@ -85,10 +88,9 @@ std::vector<ChartPoint> merge_equal(std::vector<Row> rows, double equal_ratio) {
 }  // namespace
 
 void ChartOptions::validate() const {
-  const std::set<std::string> xs{"seconds", "spp"}, ys{"relmse", "mse", "relmse_trimmed", "mape"};
   require(!tables.empty(), "no table is given");
-  require(xs.count(x), "--x {} is not one of seconds, spp", x);
-  require(ys.count(y), "--y {} is not one of relmse, mse, relmse_trimmed, mape", y);
+  for (char axis : linear)
+    require(axis == 'x' || axis == 'y', "--linear {} is not x, y or xy", linear);
   require(!preprocess || x == "seconds", "--preprocess needs --x seconds");
   require(output.ends_with(".svg"), "-o \"{}\" does not end in .svg", output);
 }
@@ -102,7 +104,7 @@ std::vector<ChartLine> chart_lines(const ChartOptions& options) {
   std::vector<std::string> names;
   std::vector<std::vector<Row>> groups;
   for (const Row& row : rows) {
-    const std::string method = row.method.empty() ? "(no method)" : row.method;
+    const std::string method = row.method.empty() ? "(none)" : row.method;
     const std::string name = scenes.size() > 1 ? row.scene + ", " + method : method;
     const size_t group = std::find(names.begin(), names.end(), name) - names.begin();
     if (group == names.size()) {
@@ -113,7 +115,8 @@ std::vector<ChartLine> chart_lines(const ChartOptions& options) {
   }
   std::vector<ChartLine> lines;
   for (size_t i = 0; i < names.size(); ++i)
-    lines.push_back({names[i], merge_equal(groups[i], options.x == "spp" ? 1 : kEqualSeconds)});
+    lines.push_back({names[i], merge_equal(groups[i], options.x == "seconds" ? kEqualSeconds : 0,
+                                           options.is_linear('y'))});
   return lines;
 }
 

@@ -10,11 +10,16 @@ struct ChartOptions {
   std::vector<std::string> tables;  // CSV files
   std::string output;               // SVG
   std::string title;
-  std::string x = "seconds", y = "relmse";  // columns
+  std::string x = "seconds", y = "relmse";  // columns of numbers
+  std::string lines = "method";             // column that tells the lines apart
+  std::string linear;                       // axes that are not logarithmic: "", "x", "y" or "xy"
   bool preprocess = false;                  // add preprocess_seconds to x
   bool png = false;                         // write a PNG beside the SVG too
 
   void validate() const;
+  bool is_linear(char axis) const { return linear.find(axis) != std::string::npos; }
+  // Whether an unbiased method's error falls with slope -1 in this chart.
+  bool has_slope() const { return linear.empty() && (x == "seconds" || x == "spp"); }
 };
 
 // Rows that share line and x: the geometric mean of y, and its range over seeds.
@@ -29,8 +34,9 @@ struct ChartLine {
 };
 
 // Lines in the order in which they appear. Renders that are limited by time end a little late, so
-// seconds within 5 % of each other count as equal. Throws Error naming file and row for a column
-// that is missing and for values that logarithmic axes cannot show.
+// seconds within 5 % of each other count as equal; other columns have to be equal. Throws Error
+// naming file and row for a column that is missing and for values that logarithmic axes cannot
+// show.
 std::vector<ChartLine> chart_lines(const ChartOptions& options);
 
 }  // namespace waylight

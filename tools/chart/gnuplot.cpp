@@ -17,7 +17,7 @@ constexpr std::array kColors{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
 constexpr std::array kPointTypes{7, 5, 9, 13, 11, 15};  // filled disk, square, triangles, ...
 
 struct Range {
-  double low = std::numeric_limits<double>::infinity(), high = 0;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
 
   void extend(double value) {
     low = std::min(low, value);
@@ -27,6 +27,11 @@ struct Range {
   Range padded() const {
     const double factor = std::max(1.15, std::sqrt(2 * low / high));
     return {low / factor, high * factor};
+  }
+  // The same for a linear axis, which begins at zero where no value is negative.
+  Range padded_linear() const {
+    const double room = high > low ? 0.05 * (high - low) : std::max(std::abs(high), 1.0);
+    return {low >= 0 ? 0 : low - room, high + room};
   }
 };
 
@@ -41,12 +46,17 @@ std::string quoted(const std::string& text) {
   return result;
 }
 
-std::string axis_commands(const char* axis, const Range& range) {
+std::string axis_commands(char axis, const Range& values, bool linear) {
+  if (linear) {
+    const Range range = values.padded_linear();
+    return fmt::format("set {}range [{:.9g}:{:.9g}]\n", axis, range.low, range.high);
+  }
+  const Range range = values.padded();
   std::string ticks;
   for (double tick : logarithmic_ticks(range.low, range.high))
     ticks += fmt::format("{}'{:g}' {:.9g}", ticks.empty() ? "" : ", ", tick, tick);
-  return fmt::format("set {0}range [{1:.9g}:{2:.9g}]\nset {0}tics ({3})\n", axis, range.low,
-                     range.high, ticks);
+  return fmt::format("set logscale {0}\nset {0}range [{1:.9g}:{2:.9g}]\nset {0}tics ({3})\n", axis,
+                     range.low, range.high, ticks);
 }
 
 std::string terminal(ChartFormat format) {
@@ -63,7 +73,8 @@ std::string label_of(const std::string& column) {
   if (column == "relmse") return "relMSE";
   if (column == "relmse_trimmed") return "relMSE without the worst 0.1 % of the pixels";
   if (column == "mape") return "MAPE";
-  return "MSE";
+  if (column == "mse") return "MSE";
+  return column;
 }
 
 std::string data_block(size_t index, const ChartLine& line) {
@@ -79,8 +90,8 @@ bool has_band(const ChartLine& line) {
   return false;
 }
 
-// Bands first, then the guide, then the lines on top.
-std::string plot_command(const std::vector<ChartLine>& lines) {
+// Bands first, then the slope, then the lines on top.
+std::string plot_command(const std::vector<ChartLine>& lines, bool slope) {
   std::string command = "plot ";
   for (size_t i = 0; i < lines.size(); ++i)
     if (has_band(lines[i]))
@@ -89,14 +100,16 @@ std::string plot_command(const std::vector<ChartLine>& lines) {
           "0.18 noborder notitle, ",
           i, kColors[i % kColors.size()]);
   const ChartPoint& anchor = lines[0].points[0];
-  command += fmt::format(
-      "{:.9g}/x with lines linecolor rgb '#9a9a9a' linewidth 1.5 dashtype 2 title 'slope -1'",
-      anchor.x * anchor.y);
+  if (slope)
+    command += fmt::format(
+        "{:.9g}/x with lines linecolor rgb '#9a9a9a' linewidth 1.5 dashtype 2 title 'slope -1', ",
+        anchor.x * anchor.y);
   for (size_t i = 0; i < lines.size(); ++i)
     command += fmt::format(
-        ", $line{} using 1:2 with linespoints linecolor rgb '{}' linewidth 2.5 pointtype {} "
+        "{}$line{} using 1:2 with linespoints linecolor rgb '{}' linewidth 2.5 pointtype {} "
         "pointsize 0.9 title {}",
-        i, kColors[i % kColors.size()], kPointTypes[i % kPointTypes.size()], quoted(lines[i].name));
+        i ? ", " : "", i, kColors[i % kColors.size()], kPointTypes[i % kPointTypes.size()],
+        quoted(lines[i].name));
   return command + "\n";
 }
 
@@ -125,8 +138,9 @@ std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartL
     }
   std::string script = terminal(format) + "set output " + quoted(output) + "\n";
   for (size_t i = 0; i < lines.size(); ++i) script += data_block(i, lines[i]);
-  script += "set encoding utf8\nset samples 200\nset logscale xy\n";
-  script += axis_commands("x", x.padded()) + axis_commands("y", y.padded());
+  script += "set encoding utf8\nset samples 200\n";
+  script += axis_commands('x', x, options.is_linear('x'));
+  script += axis_commands('y', y, options.is_linear('y'));
   const std::string x_label =
       options.preprocess ? "preprocessing and render time (s)" : label_of(options.x);
   script += "set xlabel " + quoted(x_label) + "\nset ylabel " + quoted(label_of(options.y)) + "\n";
@@ -135,7 +149,7 @@ std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartL
       "set border 3 linecolor rgb '#404040'\nset tics nomirror out textcolor rgb '#202020'\n"
       "set grid linecolor rgb '#dcdcdc' linewidth 1 linetype 1\n"
       "set key top right opaque samplen 2.5 spacing 1.3 width 1 noautotitle\n";
-  return script + plot_command(lines);
+  return script + plot_command(lines, options.has_slope());
 }
 
 void run_gnuplot(const std::string& script) {

@@ -1,4 +1,4 @@
-// chart: error over time from the tables of image-compare.
+// chart: lines over the columns of tables.
 
 #include <CLI/CLI.hpp>
 
@@ -10,23 +10,26 @@ using namespace waylight;
 namespace {
 
 constexpr ToolInfo kTool = {
-    "chart", "Draws error over time, log-log, one line per method", "TABLES.csv... -o OUT.svg",
-    R"(Tables are those of `image-compare --csv`. Rows of one method and time (several seeds) become one
-point, their geometric mean, and a band from the smallest to the largest. The dashed line has slope -1:
-the error of an unbiased method falls along it.
+    "chart", "Draws tables of figures: error over time, one line per method",
+    "TABLES.csv... -o OUT.svg",
+    R"(Tables are those of `image-compare --csv`, or any with a heading: --x, --y and --lines name columns.
+Rows of one line and x (several seeds) become one point, their geometric mean, and a band from the
+smallest to the largest. The dashed line has slope -1: the error of an unbiased method falls along it.
 
-Example:
-  chart room.csv -o room.svg --title "Room" --preprocess)"};
+Examples:
+  chart room.csv -o room.svg --title "Room" --preprocess
+  chart reduction.csv -o reduction.svg --x components --y relmse --linear x)"};
 
 void declare(CLI::App& app, ChartOptions& options) {
-  as_input(app.add_option("TABLES", options.tables, "Tables that `image-compare --csv` wrote"))
-      ->required();
+  as_input(app.add_option("TABLES", options.tables, "Tables with a heading (.csv)"))->required();
   as_output(app.add_option("-o,--output", options.output, "Chart to write (.svg)"), {".svg"})
       ->required();
   app.add_option("--title", options.title, "Title of the chart");
-  app.add_option("--x", options.x, "Column of the horizontal axis")->type_name("seconds|spp");
-  app.add_option("--y", options.y, "Column of the vertical axis")
-      ->type_name("relmse|mse|relmse_trimmed|mape");
+  app.add_option("--x", options.x, "Column of the horizontal axis")->type_name("COLUMN");
+  app.add_option("--y", options.y, "Column of the vertical axis")->type_name("COLUMN");
+  app.add_option("--lines", options.lines, "Column that tells the lines apart")
+      ->type_name("COLUMN");
+  app.add_option("--linear", options.linear, "Axes that are not logarithmic")->type_name("x|y|xy");
   app.add_flag("--preprocess", options.preprocess, "Add preprocess_seconds to the seconds");
   app.add_flag("--png", options.png, "Write a PNG of the same name too");
 }
