@@ -10,18 +10,26 @@
 namespace waylight {
 
 FLAT_RECORD(BrdfCacheEntry, fbs::BrdfCacheEntry);
+FLAT_RECORD(WidthSeries, fbs::WidthSeries);
 
 namespace {
 
-constexpr uint32_t kFormatVersion = 1;
+// 2: some material has another layout than elevations. A file says the least version that it needs.
+constexpr uint32_t kFormatVersion = 2;
 constexpr size_t kMaxMaterials = 500'000;  // each is a table; the verifier stops at a million
+
+uint32_t version_needed(const BrdfCache& cache) {
+  for (const MaterialFit& fit : cache.materials)
+    if (fit.layout != EntryLayout::elevations) return 2;
+  return 1;
+}
 
 size_t bytes_needed(const BrdfFile& file) {
   size_t bytes = provenance_bytes(file.provenance) +
                  file.cache.entries.size() * sizeof(BrdfCacheEntry) +
                  file.cache.components.size() * sizeof(GaussianComponent);
   for (const MaterialFit& fit : file.cache.materials)
-    bytes += 128 + fit.name.size() + fit.kind.size();
+    bytes += 192 + fit.name.size() + fit.kind.size() + fit.widths.size() * sizeof(WidthSeries);
   return bytes;
 }
 
@@ -30,7 +38,7 @@ void check_writable_content(const std::string& path, const BrdfFile& file) {
     fail("\"{}\": not written, the fits are not valid: {}", path, fault);
   if (file.cache.materials.size() > kMaxMaterials)
     fail("\"{}\": {} materials are more than {}", path, file.cache.materials.size(), kMaxMaterials);
-  check_flat_size(path, bytes_needed(file), "fit fewer --elevations");
+  check_flat_size(path, bytes_needed(file), "allow fewer --elevations or --directions");
 }
 
 auto add_materials(flatbuffers::FlatBufferBuilder& builder, const std::vector<MaterialFit>& fits) {
@@ -38,18 +46,22 @@ auto add_materials(flatbuffers::FlatBufferBuilder& builder, const std::vector<Ma
   for (const MaterialFit& fit : fits) {
     const auto name = builder.CreateString(fit.name);
     const auto kind = builder.CreateString(fit.kind);
+    const auto widths = fit.widths.empty() ? 0 : add_records(builder, fit.widths);
     tables.push_back(fbs::CreateMaterialFit(builder, fit.material, name, kind, fit.textured,
-                                            fit.first_entry, fit.entry_count));
+                                            fit.first_entry, fit.entry_count,
+                                            static_cast<fbs::EntryLayout>(fit.layout), widths));
   }
   return builder.CreateVector(tables);
 }
 
-std::vector<MaterialFit> materials_of(const fbs::BrdfCache& root, FlatStrings& strings) {
+std::vector<MaterialFit> materials_of(const fbs::BrdfCache& root, FlatStrings& strings,
+                                      const std::string& path) {
   std::vector<MaterialFit> fits;
   if (!root.materials()) return fits;
   for (const fbs::MaterialFit* m : *root.materials())
     fits.push_back({m->material(), strings(m->name()), strings(m->kind()), m->textured(),
-                    m->first_entry(), m->entry_count()});
+                    m->first_entry(), m->entry_count(), static_cast<EntryLayout>(m->layout()),
+                    copy_of(records_of<WidthSeries>(m->widths(), path))});
   return fits;
 }
 
@@ -62,8 +74,9 @@ void write_brdf(const std::string& path, const BrdfFile& file) {
   const auto entries = add_records(builder, file.cache.entries);
   const auto materials = add_materials(builder, file.cache.materials);
   const auto provenance = add_provenance(builder, file.provenance);
-  fbs::FinishBrdfCacheBuffer(builder, fbs::CreateBrdfCache(builder, kFormatVersion, provenance,
-                                                           materials, entries, components));
+  fbs::FinishBrdfCacheBuffer(
+      builder, fbs::CreateBrdfCache(builder, version_needed(file.cache), provenance, materials,
+                                    entries, components));
   write_whole_file(path, bytes_of(builder));
 }
 
@@ -74,7 +87,7 @@ BrdfFile read_brdf(const std::string& path) {
   FlatStrings strings(map.bytes().size(), path);
   BrdfFile file;
   file.provenance = provenance_from(*root.provenance(), strings);
-  file.cache.materials = materials_of(root, strings);
+  file.cache.materials = materials_of(root, strings, path);
   file.cache.entries = copy_of(records_of<BrdfCacheEntry>(root.entries(), path));
   file.cache.components = copy_of(records_of<GaussianComponent>(root.components(), path));
   if (const std::string fault = check(file.cache); !fault.empty()) fail_damaged(path, fault);

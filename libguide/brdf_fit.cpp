@@ -1,74 +1,23 @@
 #include "libguide/brdf_fit.h"
 
-#include <chrono>
-
 #include "libguide/base/error.h"
-#include "libguide/base/parallel.h"
-#include "libguide/fit/fit_plan.h"
-#include "libguide/fit/lobe_fit.h"
+#include "libguide/fit/fitted_series.h"
+#include "libguide/fit/lobe_family.h"
 
 namespace waylight {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr size_t kTasksPerRound = 256;  // between looks at the clock and at the user
-
-struct EntryFit {
-  std::vector<GaussianComponent> components;
-  float held_out_error = 0;
-  double seconds = 0;
-};
-
-struct Task {
-  size_t fit;  // of the plan
-  int entry;
-};
-
-std::vector<Task> tasks_of(const FitPlan& plan) {
-  std::vector<Task> tasks;
-  for (size_t f = 0; f < plan.fits.size(); ++f)
-    for (int i = 0; plan.fits[f].same_as < 0 && i < plan.fits[f].entries; ++i)
-      tasks.push_back({f, i});
-  return tasks;
+SeriesLimits limits_of(const BrdfFitOptions& options) {
+  return {options.tolerance,
+          options.elevations,
+          options.directions,
+          {options.components, options.samples, options.seed, options.prior}};
 }
 
-EntryFit fit_entry(const PlannedFit& fit, int entry, const LobeFitOptions& options) {
-  const Clock::time_point start = Clock::now();
-  const LobeTargets targets =
-      lobe_targets(fit.bsdf, entry_theta(entry, fit.entries), fit.traits.anisotropic);
-  EntryFit result;
-  result.components = fit_lobe(targets, options);
-  result.held_out_error = held_out_error(targets, GaussianMixture(result.components), options.seed);
-  result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  return result;
-}
-
-// In the order of the tasks; fewer where the user has stopped the run.
-std::vector<EntryFit> fit_all(const FitPlan& plan, std::span<const Task> tasks,
-                              const LobeFitOptions& options, const RunControl& control) {
-  std::vector<EntryFit> results;
-  while (results.size() < tasks.size() && !control.stopped()) {
-    const size_t first = results.size();
-    results.resize(std::min(tasks.size(), first + kTasksPerRound));
-    parallel_for(results.size() - first, [&](size_t i) {
-      const Task& task = tasks[first + i];
-      if (!control.stopped())
-        results[first + i] = fit_entry(plan.fits[task.fit], task.entry, options);
-    });
-    if (control.stopped()) results.resize(first);
-    control.progress(double(results.size()), double(tasks.size()), "fits");
-  }
-  return results;
-}
-
-void warn_of_means(const Material& material, const LobeTraits& traits, const RunControl& control) {
-  if (traits.textured)
-    control.warn(
-        fmt::format("material \"{}\" is textured: fitted at mean parameters", material.name));
-  if (traits.anisotropic)
-    control.warn(fmt::format("material \"{}\" is anisotropic: fitted to the mean over all azimuths",
-                             material.name));
+void warn_of_means(const Material& material, const PlannedFit& fit, const RunControl& control) {
+  if (!fit.traits.textured) return;
+  control.warn(fmt::format("material \"{}\" is textured: fitted at mean parameters{}",
+                           material.name, fit.width_range ? ", but for its width" : ""));
 }
 
 // Of the front, where the material is two-sided.
@@ -80,21 +29,27 @@ const char* fitted_kind(const SceneDescription& scene, int material) {
 // Lays out in the cache what was fitted, material by material.
 class Assembly {
  public:
-  Assembly(const SceneDescription& scene, const FitPlan& plan) : scene_(scene) {
+  Assembly(const SceneDescription& scene, const FitPlan& plan, const SeriesLimits& limits)
+      : scene_(scene), limits_(limits) {
     result_.summary.skipped = plan.skipped;
   }
 
-  // The next fit of the plan, with the entries made for it; none where an earlier one serves it.
-  void add(const PlannedFit& fit, std::span<const EntryFit> entries) {
+  // The next fit of the plan, with its series; none where an earlier one serves it.
+  void add(const PlannedFit& fit, std::span<const FittedSeries> series) {
     const Material& material = scene_.materials[fit.material];
-    MaterialFit record{static_cast<uint32_t>(fit.material), material.name,
-                       fitted_kind(scene_, fit.material), fit.traits.textured};
+    MaterialFit record;
+    record.material = static_cast<uint32_t>(fit.material);
+    record.name = material.name;
+    record.kind = fitted_kind(scene_, fit.material);
+    record.textured = fit.traits.textured;
+    record.layout = fit.layout;
     MaterialFitSummary summary;
     summary.name = record.name, summary.kind = record.kind, summary.textured = record.textured;
     if (fit.same_as >= 0)
       share(fit, record, summary);
     else
-      store(entries, record, summary);
+      store(series, record, summary);
+    count(fit, summary);
     places_.push_back(result_.cache.materials.size());
     result_.cache.materials.push_back(std::move(record));
     result_.summary.materials.push_back(std::move(summary));
@@ -103,36 +58,56 @@ class Assembly {
   // In place of add() where the user stopped the run before the material was complete.
   void leave_out(const PlannedFit& fit) {
     const Material& material = scene_.materials[fit.material];
-    places_.push_back(0);
+    places_.push_back(kNowhere);
     result_.summary.skipped.push_back(
         fmt::format("{} ({}): interrupted", material.name, material_kind(material)));
   }
 
+  bool has(int fit) const { return places_[fit] != kNowhere; }
   BrdfFitResult finish() { return std::move(result_); }
 
  private:
-  void store(std::span<const EntryFit> entries, MaterialFit& record, MaterialFitSummary& summary) {
+  static constexpr size_t kNowhere = ~size_t{0};
+
+  void store(std::span<const FittedSeries> series, MaterialFit& record,
+             MaterialFitSummary& summary) {
+    for (size_t i = 0; i < series.size(); ++i) {
+      const WidthSeries stored = store(series[i], summary);
+      if (i == series.size() / 2)
+        record.first_entry = stored.first_entry, record.entry_count = stored.entry_count;
+      if (stored.width > 0) record.widths.push_back(stored);
+      summary.seconds += series[i].seconds;
+      if (series[i].seconds_per_fit > 0) seconds_per_fit_ = series[i].seconds_per_fit;
+    }
+    summary.widths = static_cast<int>(record.widths.size());
+    summary.from_family = series[0].seconds_per_fit == 0;
+    summary.mean_components /= summary.entries;
+    summary.held_out_error /= summary.entries;
+  }
+
+  // Sums of the summary only.
+  WidthSeries store(const FittedSeries& series, MaterialFitSummary& summary) {
     BrdfCache& cache = result_.cache;
-    record.first_entry = static_cast<uint32_t>(cache.entries.size());
-    record.entry_count = static_cast<uint32_t>(entries.size());
-    summary.entries = static_cast<int>(entries.size());
-    for (const EntryFit& fit : entries) {
+    const WidthSeries stored{series.width, static_cast<uint32_t>(cache.entries.size()),
+                             static_cast<uint32_t>(series.entries.size())};
+    for (const EntryFit& fit : series.entries) {
       const size_t first = cache.components.size(), count = fit.components.size();
       cache.entries.push_back(
           {static_cast<uint32_t>(first), static_cast<uint32_t>(count), fit.held_out_error});
       cache.components.insert(cache.components.end(), fit.components.begin(), fit.components.end());
-      summary.mean_components += double(count) / entries.size();
-      summary.held_out_error += double(fit.held_out_error) / entries.size();
-      summary.seconds += fit.seconds;
+      summary.mean_components += double(count);
+      summary.held_out_error += fit.held_out_error;
       summary.bytes += sizeof(BrdfCacheEntry) + count * sizeof(GaussianComponent);
     }
+    summary.entries += static_cast<int>(series.entries.size());
+    return stored;
   }
 
   // It cost neither time nor space.
   void share(const PlannedFit& fit, MaterialFit& record, MaterialFitSummary& summary) const {
     const size_t place = places_[fit.same_as];
-    record.first_entry = result_.cache.materials[place].first_entry;
-    record.entry_count = result_.cache.materials[place].entry_count;
+    const MaterialFit& served = result_.cache.materials[place];
+    record.first_entry = served.first_entry, record.entry_count = served.entry_count;
     const MaterialFitSummary& first = result_.summary.materials[place];
     summary.entries = first.entries;
     summary.mean_components = first.mean_components;
@@ -140,24 +115,33 @@ class Assembly {
     summary.shares_with = first.name;
   }
 
+  // Sharing is counted at the price of the last fit that was made.
+  void count(const PlannedFit& fit, const MaterialFitSummary& m) {
+    FitCost &cost = result_.summary.cost, &full = result_.summary.full;
+    if (m.shares_with.empty()) cost.entries += m.entries;
+    cost.bytes += m.bytes, cost.seconds += m.seconds;
+    const size_t most = size_t(std::max(m.widths, 1)) * most_entries(fit, limits_);
+    full.entries += most;
+    full.bytes += static_cast<size_t>(
+        most * (sizeof(BrdfCacheEntry) + m.mean_components * sizeof(GaussianComponent)));
+    full.seconds += most * seconds_per_fit_;
+  }
+
   const SceneDescription& scene_;
+  const SeriesLimits& limits_;
   std::vector<size_t> places_;  // of each fit of the plan among the cache's materials
+  double seconds_per_fit_ = 0;
   BrdfFitResult result_;
 };
 
 BrdfFitResult assemble(const SceneDescription& scene, const FitPlan& plan,
-                       std::span<const EntryFit> fitted) {
-  Assembly assembly(scene, plan);
-  std::vector<bool> complete;
-  size_t first = 0;
-  for (const PlannedFit& fit : plan.fits) {
-    const size_t count = fit.same_as < 0 ? fit.entries : 0;
-    complete.push_back(fit.same_as < 0 ? first + count <= fitted.size() : complete[fit.same_as]);
-    if (complete.back())
-      assembly.add(fit, fitted.subspan(std::min(first, fitted.size()), count));
-    else
-      assembly.leave_out(fit);
-    first += count;
+                       const SeriesLimits& limits,
+                       std::span<const std::vector<FittedSeries>> series) {
+  Assembly assembly(scene, plan, limits);
+  for (size_t f = 0; f < plan.fits.size(); ++f) {
+    const PlannedFit& fit = plan.fits[f];
+    const bool known = fit.same_as < 0 ? !series[f].empty() : assembly.has(fit.same_as);
+    known ? assembly.add(fit, series[f]) : assembly.leave_out(fit);
   }
   return assembly.finish();
 }
@@ -167,6 +151,9 @@ BrdfFitResult assemble(const SceneDescription& scene, const FitPlan& plan,
 void BrdfFitOptions::validate() const {
   require(elevations >= 1 && elevations <= 4096, "--elevations {}: must be within 1..4096",
           elevations);
+  require(directions >= 1 && directions <= 65536, "--directions {}: must be within 1..65536",
+          directions);
+  require(tolerance >= 0 && tolerance <= 2, "--tolerance {}: must be within 0..2", tolerance);
   require(components >= 1 && components <= GaussianMixture::kMaxComponents,
           "--components {}: must be within 1..8", components);
   require(samples >= 16 && samples <= 65536, "--samples {}: must be within 16..65536", samples);
@@ -176,13 +163,20 @@ void BrdfFitOptions::validate() const {
 }
 
 BrdfFitResult fit_brdfs(const SceneDescription& scene, const BrdfFitOptions& options,
-                        const RunControl& control) {
+                        const RunControl& control, std::span<const BrdfCache> families) {
   options.validate();
-  const FitPlan plan = plan_fits(scene, options.elevations);
+  const FitPlan plan = plan_fits(scene, options.tolerance);
   for (const PlannedFit& fit : plan.fits)
-    warn_of_means(scene.materials[fit.material], fit.traits, control);
-  const LobeFitOptions lobe{options.components, options.samples, options.seed, options.prior};
-  return assemble(scene, plan, fit_all(plan, tasks_of(plan), lobe, control));
+    warn_of_means(scene.materials[fit.material], fit, control);
+  const SeriesLimits limits = limits_of(options);
+  return assemble(scene, plan, limits, fit_series(scene, plan, families, limits, control));
+}
+
+BrdfFitResult fit_family(const std::string& name, const BrdfFitOptions& options,
+                         const RunControl& control) {
+  RunControl silent = control;  // that the family's width is textured is how it is made
+  silent.on_warning = nullptr;
+  return fit_brdfs(family_scene(name), options, silent);
 }
 
 }  // namespace waylight

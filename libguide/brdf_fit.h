@@ -1,6 +1,7 @@
 #pragma once
 // Stage: Gaussian mixtures of every BSDF of a scene that has a density.
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,9 +13,13 @@
 namespace waylight {
 
 struct BrdfFitOptions {
-  int elevations = 512;  // entries per material that depends on wo, 1..4096
-  int components = 8;    // K before reduction, 1..8
-  int samples = 512;     // directions per entry, 16..65536
+  // The error, over a fit's own, that is allowed between the wo of two entries, between two widths
+  // of a textured one, and between materials that share entries; 0..2, 0: none but rounding.
+  float tolerance = 0.02f;
+  int elevations = 512;   // most entries of a material that depends on the elevation of wo, 1..4096
+  int directions = 4096;  // most of one that depends on its azimuth too, 1..65536
+  int components = 8;     // K before reduction, 1..8
+  int samples = 512;      // directions per entry, 16..65536
   uint64_t seed = 0;
   // Narrower lobes are allowed than a training from photons does: the points are free of noise.
   MixturePrior prior{1.01f, 2.01f, 5e-6f};
@@ -25,17 +30,28 @@ struct BrdfFitOptions {
 struct MaterialFitSummary {
   std::string name, kind;
   bool textured = false;
-  int entries = 0;
+  int widths = 0;   // series of entries where the width is textured, else 0
+  int entries = 0;  // of all series
   double mean_components = 0;
   double held_out_error = 0;  // mean over entries
-  double seconds = 0;         // of one core, summed over the entries
+  double seconds = 0;         // of one core, fits and tests that were not kept included
   size_t bytes = 0;
-  std::string shares_with;  // an earlier material of the same BSDF whose entries serve this one
+  bool from_family = false;  // its entries are those of a family that was given
+  std::string shares_with;   // an earlier material of the same lobe whose entries serve this one
+};
+
+struct FitCost {
+  size_t entries = 0, bytes = 0;
+  double seconds = 0;  // of one core
 };
 
 struct BrdfFitSummary {
   std::vector<MaterialFitSummary> materials;
   std::vector<std::string> skipped;  // "name (kind): why"; delta and null materials and the like
+  FitCost cost;
+  // Estimated for as many entries as the options allow, for each material its own, at as many
+  // widths.
+  FitCost full;
 };
 
 struct BrdfFitResult {
@@ -44,12 +60,21 @@ struct BrdfFitResult {
 };
 
 // Fits the front of every material that a shape shows, and the back where a two-sided material has
-// another one there. Anisotropic lobes are fitted to their mean over all azimuths of wo, textured
-// ones at mean parameters; both are warned of. Left out are delta and null materials, and those
-// with rough transmission: the guides stand over one hemisphere. A stopped run keeps the materials
-// that were complete. The result depends neither on the number of threads nor on the other
-// materials of the scene.
+// another one there. The number of entries follows the tolerance; materials whose lobes have one
+// shape share theirs. Isotropic lobes have entries by elevation, anisotropic ones by direction;
+// where the width is textured there are entries for a series of widths, everything else that is
+// textured is fitted at its mean, which is warned of. Left out are delta and null materials, and
+// those with rough transmission: the guides stand over one hemisphere. A stopped run keeps the
+// materials that were complete. The result does not depend on the number of threads.
+//
+// families: results of fit_family. Their entries serve what they fit as well as their own lobe,
+// within twice the tolerance, and are copied.
 BrdfFitResult fit_brdfs(const SceneDescription& scene, const BrdfFitOptions& options,
-                        const RunControl& control);
+                        const RunControl& control, std::span<const BrdfCache> families = {});
+
+// One material whose width goes from 0.005 to 1, for any scene: roughconductor-ggx,
+// roughconductor-beckmann, phong or ward, white and without a diffuse part. Misuse names others.
+BrdfFitResult fit_family(const std::string& name, const BrdfFitOptions& options,
+                         const RunControl& control);
 
 }  // namespace waylight

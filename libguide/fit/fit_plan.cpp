@@ -1,12 +1,10 @@
 #include "libguide/fit/fit_plan.h"
 
-#include <bit>
 #include <set>
-#include <unordered_map>
 
 #include "libguide/base/error.h"
-#include "libguide/base/sampler.h"
-#include "libguide/fit/lobe_target.h"
+#include "libguide/directional/entry_layout.h"
+#include "libguide/fit/lobe_distance.h"
 
 namespace waylight {
 namespace {
@@ -36,30 +34,40 @@ const char* reason_to_skip(const Bsdf& bsdf) {
   return nullptr;
 }
 
-// Of the directions and values that its sampler makes from several wo: equal for equal BSDFs, and
-// for others not but by a collision of 64 bits.
-uint64_t fingerprint(const Bsdf& bsdf, const LobeTraits& traits) {
-  constexpr int kElevations = 8, kProbes = 16;
-  uint64_t hash = traits.depends_on_wo * 2 + traits.anisotropic;
-  const auto add = [&](float v) { hash = hash_combine(hash, std::bit_cast<uint32_t>(v)); };
-  for (int e = 0; e < kElevations; ++e) {
-    const LobeTarget target(bsdf, entry_theta(e, kElevations), static_cast<float>(e));
-    for (int i = 0; i < kProbes; ++i) {
-      Sampler sampler(0, e, i);
-      const float u = sampler.next();
-      const Vec3 wi = target.sample(u, sampler.next_2d()).value_or(Vec3(0, 0, 1));
-      const LobeTarget::Value at = target.evaluate(wi);
-      for (const float v : {wi.x(), wi.y(), wi.z(), at.f, at.pdf}) add(v);
-    }
+std::optional<WidthRange> textured_width(std::span<const Material> materials, int material) {
+  const std::optional<LobeWidth> width = lobe_width(materials, material);
+  if (!width) return std::nullopt;
+  const WidthRange range = width->range();
+  if (!(range.least < range.largest)) return std::nullopt;
+  return range;
+}
+
+// Some wo all over the hemisphere.
+constexpr int kProbes = 12;
+
+// Whether the lobes of both have one shape, at their means; those of textured width have many.
+bool alike(const PlannedFit& a, const PlannedFit& b, float tolerance) {
+  if (a.traits.depends_on_wo != b.traits.depends_on_wo || a.layout != b.layout) return false;
+  if (a.width_range || b.width_range) return false;
+  const int probes = a.traits.depends_on_wo ? kProbes : 1;
+  for (int i = 0; i < probes; ++i) {
+    const Vec3 wo = entry_wo(EntryLayout::fibonacci, i, probes);
+    if (lobe_distance({a.bsdf, wo}, {b.bsdf, wo}) > tolerance) return false;
   }
-  return hash;
+  return true;
+}
+
+int find_alike(const FitPlan& plan, const PlannedFit& fit, float tolerance) {
+  for (size_t i = 0; i < plan.fits.size(); ++i)
+    if (plan.fits[i].same_as < 0 && alike(plan.fits[i], fit, tolerance)) return static_cast<int>(i);
+  return -1;
 }
 
 }  // namespace
 
-FitPlan plan_fits(const SceneDescription& scene, int elevations) {
+FitPlan plan_fits(const SceneDescription& scene, float tolerance) {
+  constexpr float kRounding = 1e-4f;  // of lobes that differ by a factor
   FitPlan plan;
-  std::unordered_map<uint64_t, int> seen;
   for (const int material : shown_materials(scene)) {
     PlannedFit fit{material, resolve_mean(scene.materials, material),
                    lobe_traits(scene.materials, material)};
@@ -69,10 +77,9 @@ FitPlan plan_fits(const SceneDescription& scene, int elevations) {
           fmt::format("{} ({}): {}", described.name, material_kind(described), reason));
       continue;
     }
-    fit.entries = fit.traits.depends_on_wo ? elevations : 1;
-    const int index = static_cast<int>(plan.fits.size());
-    const int first = seen.try_emplace(fingerprint(fit.bsdf, fit.traits), index).first->second;
-    fit.same_as = first == index ? -1 : first;
+    if (fit.traits.anisotropic) fit.layout = EntryLayout::fibonacci;
+    fit.width_range = textured_width(scene.materials, material);
+    fit.same_as = find_alike(plan, fit, std::max(tolerance, kRounding));
     plan.fits.push_back(std::move(fit));
   }
   return plan;

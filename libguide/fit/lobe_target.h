@@ -9,10 +9,11 @@
 
 namespace waylight {
 
-// Directions are in the fit's frame: z the shading normal, x the horizontal part of wo. The azimuth
-// of wo in the shading frame matters for anisotropic lobes only.
+// Directions are in the frame in which wo is given: z the shading normal, x the horizontal part of
+// wo or, for lobes that are anisotropic, that of the shading frame.
 class LobeTarget {
  public:
+  LobeTarget(const Bsdf& bsdf, const Vec3& wo) : bsdf_(bsdf), cosine_(1), sine_(0), wo_(wo) {}
   LobeTarget(const Bsdf& bsdf, float theta, float azimuth)
       : bsdf_(bsdf), cosine_(std::cos(azimuth)), sine_(std::sin(azimuth)) {
     wo_ = rotated({std::sin(theta), 0, std::cos(theta)});

@@ -32,26 +32,20 @@ void DirectionSampler::prepare_guide(const GuidingCaches& caches, DirectionGuide
   irradiance_ = cell->irradiance;
   cell_frame_ = Frame(cell->normal);
   light_ = caches.guide().mixture(*cell);
-  if (light_.count() == 0 ||
-      (guide == DirectionGuide::product && !prepare_product(caches, at.material)))
+  if (light_.count() == 0 || (guide == DirectionGuide::product && !prepare_product(caches, at)))
     guiding_prob_ = 0;
 }
 
 // False when the fitted BSDF and the light do not overlap: BSDF sampling is left alone then.
 // A material without fit keeps the light's mixture as its guide.
-bool DirectionSampler::prepare_product(const GuidingCaches& caches, int material) {
-  const std::span<const GaussianComponent> lobes =
-      caches.brdf_lobes(material, ng_side_ < 0, wo_local_.z());
-  if (lobes.empty()) return true;
-  // The fit's frame: z the shading normal, x the horizontal part of wo.
+bool DirectionSampler::prepare_product(const GuidingCaches& caches, const SurfacePoint& at) {
+  const FittedLobe lobe = caches.brdf_lobe(at.material, ng_side_ < 0, wo_local_, at.uv);
+  if (lobe.components.empty()) return true;
   const Frame& shading = resolved_.frame;
-  const Vec3 horizontal = shading.to_world({wo_local_.x(), wo_local_.y(), 0});
-  const Frame fit = Frame::from_tangent(shading.n, horizontal);
-  Mat3 rotation;
-  rotation.col(0) = cell_frame_.to_local(fit.s);
-  rotation.col(1) = cell_frame_.to_local(fit.t);
-  rotation.col(2) = cell_frame_.to_local(fit.n);
-  brdf_ = GaussianMixture(lobes).carried(rotation);
+  Mat3 to_cell;
+  to_cell << cell_frame_.to_local(shading.s), cell_frame_.to_local(shading.t),
+      cell_frame_.to_local(shading.n);
+  brdf_ = GaussianMixture(lobe.components).carried(to_cell * lobe.to_shading);
   product_.emplace(brdf_, light_);
   return product_->valid();
 }

@@ -51,7 +51,7 @@ class DirectionSampler {
  private:
   void prepare_guide(const GuidingCaches& caches, DirectionGuide guide, const SurfacePoint& at,
                      const Vec3& wo);
-  bool prepare_product(const GuidingCaches& caches, int material);
+  bool prepare_product(const GuidingCaches& caches, const SurfacePoint& at);
   std::optional<Vec3> sample_guide(float u, const Vec2& u2) const;
   float guide_pdf(const Vec3& wi) const;
   float density(float bsdf_pdf, const Vec3& wi) const;

@@ -5,26 +5,30 @@
 #include <span>
 #include <vector>
 
-#include "libguide/bsdf/material.h"
+#include "libguide/bsdf/textured_width.h"
 #include "libguide/cache/guide_cache_view.h"
 #include "libguide/records/brdf_cache.h"
 
 namespace waylight {
 
+struct FittedLobe {
+  std::span<const GaussianComponent> components;
+  Mat3 to_shading = Mat3::Identity();  // rotation from the components' frame to the shading frame
+};
+
 class GuidingCaches {
  public:
   GuidingCaches() = default;
-  // brdf may be null; both must outlive this.
+  // brdf may be null; all must outlive this.
   GuidingCaches(const BrdfCache* brdf, const GuideCacheView& guide,
                 std::span<const Material> materials);
 
   bool guided() const { return !guide_.cells.empty(); }
   const GuideCacheView& guide() const { return guide_; }
-  // Components fitted to f of the material at cos_theta of wo; empty when it has no fit.
-  // from_behind: the back of a two-sided material is seen, which may have a fit of its own
-  // (material_behind).
-  std::span<const GaussianComponent> brdf_lobes(int material, bool from_behind,
-                                                float cos_theta) const;
+  // What was fitted to f of the material for wo (shading frame, upper side), where its width is
+  // textured for the nearest to the width at uv; empty when it has no fit. from_behind: the back of
+  // a two-sided material is seen, which may have a fit of its own (material_behind).
+  FittedLobe brdf_lobe(int material, bool from_behind, const Vec3& wo, const Vec2& uv) const;
   bool has_fits() const { return brdf_ != nullptr; }
 
  private:
@@ -32,6 +36,7 @@ class GuidingCaches {
   GuideCacheView guide_;
   // By material, for its front and its back: index into brdf_->materials, or -1.
   std::vector<std::array<int, 2>> fit_of_material_;
+  std::vector<std::optional<LobeWidth>> widths_;  // by brdf_->materials; where textured
 };
 
 }  // namespace waylight

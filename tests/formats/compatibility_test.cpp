@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "formats/brdf_generated.h"
 #include "formats/small_caches.h"
 #include "formats/temporary_files.h"
 
@@ -36,6 +37,35 @@ TEST(Compatibility, BrdfOfVersion1) {
   EXPECT_EQ(file.cache.materials[1].name, "metal");
   EXPECT_EQ(file.cache.materials[1].entry_count, 3u);
   EXPECT_EQ(file.cache.entries[1].held_out_error, 0.5f);
+}
+
+TEST(Compatibility, BrdfOfVersion1IsByElevationAtOneWidth) {
+  for (const MaterialFit& fit : read_brdf(data("version1.brdf")).cache.materials) {
+    EXPECT_EQ(fit.layout, EntryLayout::elevations);
+    EXPECT_TRUE(fit.widths.empty());
+  }
+}
+
+TEST(Compatibility, BrdfOfVersion2) {
+  const BrdfFile file = read_brdf(data("version2.brdf"));
+  ASSERT_EQ(file.cache.materials.size(), 2u);
+  EXPECT_EQ(file.cache.materials[0].layout, EntryLayout::elevations);
+  EXPECT_EQ(file.cache.materials[1].layout, EntryLayout::fibonacci);
+  ASSERT_EQ(file.cache.materials[1].widths.size(), 2u);
+  EXPECT_EQ(file.cache.materials[1].widths[1].width, 0.5f);
+  EXPECT_EQ(file.cache.materials[1].widths[1].entry_count, 2u);
+}
+
+// Releases that know elevations only read what holds nothing else.
+using CompatibilityOfFiles = TemporaryFiles;
+TEST_F(CompatibilityOfFiles, BrdfsByElevationAreWrittenInVersion1) {
+  const auto version = [&](const BrdfFile& file) {
+    write_brdf(path("a.brdf"), file);
+    const std::string bytes = read_whole_file(path("a.brdf"));
+    return fbs::GetBrdfCache(bytes.data())->format_version();
+  };
+  EXPECT_EQ(version(small_brdf()), 1u);
+  EXPECT_EQ(version(brdf_of_version2()), 2u);
 }
 
 TEST(Compatibility, PhotonsOfVersion1) {

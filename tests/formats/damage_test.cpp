@@ -132,9 +132,9 @@ std::string with_version(std::string bytes, uint32_t version, bool chunk) {
 TEST_F(Damage, NewerFormatVersionAsksForANewerRelease) {
   for (const Reader& reader : kReaders) {
     const bool chunk = reader.name == std::string("photons");
-    const std::string newer = put("newer", with_version(good(reader), 2, chunk));
+    const std::string newer = put("newer", with_version(good(reader), 9, chunk));
     const std::string message = error_of([&] { reader.read(newer); });
-    EXPECT_TRUE(mentions(message, "format version 2")) << message;
+    EXPECT_TRUE(mentions(message, "format version 9")) << message;
     EXPECT_TRUE(mentions(message, "newer release")) << message;
     EXPECT_FALSE(refused(reader, put("same", with_version(good(reader), 1, chunk))));
   }
@@ -153,6 +153,15 @@ TEST_F(Damage, WritersRefuseWhatReadersWould) {
   brdf = small_brdf();
   brdf.cache.materials[1].entry_count = 4;
   EXPECT_TRUE(mentions(error_of([&] { write_brdf(path("x"), brdf); }), "material \"metal\""));
+  brdf = brdf_of_version2();
+  brdf.cache.materials[1].widths[1].width = 0.125f;
+  EXPECT_TRUE(mentions(error_of([&] { write_brdf(path("x"), brdf); }), "do not ascend"));
+  brdf = brdf_of_version2();
+  brdf.cache.materials[1].widths[1].entry_count = 3;
+  EXPECT_TRUE(mentions(error_of([&] { write_brdf(path("x"), brdf); }), "entries end past"));
+  brdf = brdf_of_version2();
+  brdf.cache.materials[1].layout = static_cast<EntryLayout>(2);
+  EXPECT_TRUE(mentions(error_of([&] { write_brdf(path("x"), brdf); }), "layout 2"));
   for (const auto& spoil : std::vector<std::function<void(Photon&)>>{
            [](Photon& p) { p.position.x() = kInfinity; },
            [](Photon& p) { p.power.y() = std::nanf(""); }, [](Photon& p) { p.power.y() = -1; },

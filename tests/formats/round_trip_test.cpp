@@ -112,6 +112,16 @@ TEST_F(RoundTrip, Brdf) {
   }
 }
 
+TEST_F(RoundTrip, BrdfByDirectionAndWidth) {
+  const BrdfFile out = brdf_of_version2();
+  write_brdf(path("a.brdf"), out);
+  const BrdfFile in = read_brdf(path("a.brdf"));
+  EXPECT_EQ(in.cache.materials[0].layout, EntryLayout::elevations);
+  EXPECT_TRUE(in.cache.materials[0].widths.empty());
+  EXPECT_EQ(in.cache.materials[1].layout, EntryLayout::fibonacci);
+  expect_same_bytes(in.cache.materials[1].widths, out.cache.materials[1].widths);
+}
+
 TEST_F(RoundTrip, PhotonsOfSeveralChunks) {
   const std::vector<Photon> out = random_photons(40'000);
   write_photons(path("a.photons"), out);

@@ -56,7 +56,17 @@ inline BrdfFile small_brdf() {
                   {0.75f, -0.3f, 0, 0.04f, 0.01f, 0.01f},
                   {1, 0.5f, 0.6f, 0.02f, -0.01f, 0.03f}};
   c.entries = {{0, 2, 0.125f}, {2, 1, 0.5f}, {0, 0, 2}};
-  c.materials = {{4, "wall", "diffuse", true, 1, 1}, {7, "metal", "roughconductor", false, 0, 3}};
+  c.materials = {{4, "wall", "diffuse", true, 1, 1, EntryLayout::elevations, {}},
+                 {7, "metal", "roughconductor", false, 0, 3, EntryLayout::elevations, {}}};
+  return file;
+}
+
+// What came with version 2: entries by direction, and widths.
+inline BrdfFile brdf_of_version2() {
+  BrdfFile file = small_brdf();
+  MaterialFit& metal = file.cache.materials[1];
+  metal.layout = EntryLayout::fibonacci;
+  metal.widths = {{0.125f, 0, 1}, {0.5f, 1, 2}};
   return file;
 }
 

@@ -60,6 +60,9 @@ RoughConductorMaterial metal(float alpha_u, float alpha_v, MicrofacetDistributio
 std::vector<std::pair<std::string, MaterialModel>> materials() {
   RoughPlasticMaterial plastic;
   plastic.alpha = Texture(0.1f);
+  RoughConductorMaterial worn = metal(0.1f, 0.1f, MicrofacetDistribution::ggx);
+  worn.alpha_u.source = CheckerboardTexture{Color::Constant(0.05f), Color::Constant(0.4f)};
+  worn.alpha_v = worn.alpha_u;
   return {{"diffuse", DiffuseMaterial{}},
           {"ggx 0.3", metal(0.3f, 0.3f, MicrofacetDistribution::ggx)},
           {"ggx 0.05", metal(0.05f, 0.05f, MicrofacetDistribution::ggx)},
@@ -68,7 +71,8 @@ std::vector<std::pair<std::string, MaterialModel>> materials() {
           {"roughplastic", plastic},
           {"plastic", PlasticMaterial{}},
           {"phong", PhongMaterial{}},
-          {"ward", WardMaterial{}}};
+          {"ward", WardMaterial{}},
+          {"worn", worn}};
 }
 
 // A wide lobe, a narrow one, an elongated one at the horizon of the cell.
@@ -134,10 +138,13 @@ TEST(DirectionSamplerSlow, ABackWithAFitOfItsOwnIsSampledByIt) {
   testing::add_shape(scene, testing::rectangle({-20, -20, 0}, {0, 40, 0}, {40, 0, 0}), sheet);
   const GuidedFloor floor(std::move(scene), {0.1f, 0, 1}, some_light());  // seen from behind
   expect_valid(floor, DirectionGuide::product, 0.5f, from(40, 1), "back");
-  const std::span<const GaussianComponent> lobes = floor.caches.brdf_lobes(sheet, true, 0.5f);
-  EXPECT_FALSE(lobes.empty());
-  EXPECT_EQ(lobes.data(), floor.caches.brdf_lobes(back, false, 0.5f).data());
-  EXPECT_NE(lobes.data(), floor.caches.brdf_lobes(sheet, false, 0.5f).data());
+  const auto lobes = [&](int material, bool from_behind) {
+    return floor.caches.brdf_lobe(material, from_behind, from(60, 1), Vec2::Zero())
+        .components.data();
+  };
+  EXPECT_NE(lobes(sheet, true), nullptr);
+  EXPECT_EQ(lobes(sheet, true), lobes(back, false));
+  EXPECT_NE(lobes(sheet, true), lobes(sheet, false));
 }
 
 // Directions by guide: the mean of the weight is the albedo whatever guides.
@@ -187,15 +194,26 @@ double relative_variance(const GuidedFloor& floor, DirectionGuide guide, const V
 }
 
 TEST(DirectionSamplerSlow, TheProductOfFitAndLightLowersTheVarianceOfAVertex) {
-  for (const float alpha : {0.3f, 0.1f}) {
-    const GuidedFloor floor(floor_of(metal(alpha, alpha, MicrofacetDistribution::beckmann)),
-                            {0.3f, -0.2f, 1}, some_light());
+  WardMaterial ward;
+  ward.diffuse_reflectance = Texture(0.0f);
+  ward.alpha_u = Texture(0.3f), ward.alpha_v = Texture(0.08f);
+  RoughConductorMaterial worn = metal(0.1f, 0.1f, MicrofacetDistribution::ggx);
+  worn.alpha_u.source = CheckerboardTexture{Color::Constant(0.1f), Color::Constant(0.4f)};
+  worn.alpha_v = worn.alpha_u;
+  const std::vector<std::pair<std::string, MaterialModel>> cases = {
+      {"0.3", metal(0.3f, 0.3f, MicrofacetDistribution::beckmann)},
+      {"0.1", metal(0.1f, 0.1f, MicrofacetDistribution::beckmann)},
+      {"brushed", metal(0.08f, 0.3f, MicrofacetDistribution::ggx)},
+      {"ward", ward},
+      {"worn", worn}};
+  for (const auto& [name, model] : cases) {
+    const GuidedFloor floor(floor_of(model), {0.3f, -0.2f, 1}, some_light());
     for (const Vec3& wo : {from(20, 0.5f), from(50, 2)}) {
       const double none = relative_variance(floor, DirectionGuide::none, wo);
       const double light = relative_variance(floor, DirectionGuide::illumination, wo);
       const double product = relative_variance(floor, DirectionGuide::product, wo);
       EXPECT_LT(product, 0.5 * std::min(none, light))
-          << "alpha " << alpha << " z " << wo.z() << ": " << none << " " << light;
+          << name << " z " << wo.z() << ": " << none << " " << light;
     }
   }
 }

@@ -142,6 +142,40 @@ TEST_F(SlowRenderModes, PixelsAreTheSameAtAnyThreadCount) {
   }
 }
 
+// The room behind the gap with an anisotropic floor.
+SceneDescription gap_box_over(const MaterialModel& floor) {
+  SceneDescription scene = testing::gap_box();
+  for (Material& material : scene.materials)
+    if (material.name == "floor.nested") material.model = floor;
+  return scene;
+}
+
+void expect_anisotropy_is_guided(const MaterialModel& model) {
+  const Scene scene(gap_box_over(model));
+  const Trained trained = train(scene, 200'000);
+  RenderSummary illumination, product;
+  const Image reference = render_mode(scene, trained, RenderMode::bsdf, 2048, 77);
+  const Image image =
+      render_mode(scene, trained, RenderMode::product, 512, 5, &product, RouletteMode::none);
+  render_mode(scene, trained, RenderMode::illumination, 512, 5, &illumination, RouletteMode::none);
+  EXPECT_LT(std::abs(mean_z(image, reference)), 3.5);
+  EXPECT_LT(share_beyond_three(image, reference), 0.02);
+  EXPECT_LT(product.estimated_relmse, illumination.estimated_relmse);
+}
+
+TEST(SlowAnisotropicModes, ProductHasTheMeanOfPathTracingAndLessVarianceOverBrushedMetal) {
+  RoughConductorMaterial metal;
+  metal.alpha_u = Texture(0.05f), metal.alpha_v = Texture(0.3f);
+  expect_anisotropy_is_guided(metal);
+}
+
+TEST(SlowAnisotropicModes, ProductHasTheMeanOfPathTracingAndLessVarianceOverWard) {
+  WardMaterial ward;
+  ward.diffuse_reflectance = Texture(0.0f), ward.specular_reflectance = Texture(0.8f);
+  ward.alpha_u = Texture(0.3f), ward.alpha_v = Texture(0.05f);
+  expect_anisotropy_is_guided(ward);
+}
+
 TEST(RenderFurnace, DiffuseSphereUnderConstantLightReflectsItsAlbedo) {
   SceneDescription description;
   const int grey = testing::add_material(description, "grey", DiffuseMaterial{Texture(0.8f)});

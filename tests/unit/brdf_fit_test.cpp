@@ -11,7 +11,7 @@
 #include "libguide/base/parallel.h"
 #include "libguide/base/sampler.h"
 #include "libguide/bsdf/bsdf.h"
-#include "libguide/bsdf/lobe_traits.h"
+#include "libguide/directional/entry_layout.h"
 #include "libguide/directional/gaussian_product.h"
 #include "libguide/fit/lobe_fit.h"
 
@@ -43,7 +43,14 @@ RoughConductorMaterial metal(float alpha, MicrofacetDistribution kind = kGgx) {
 BrdfFitResult fit(const SceneDescription& scene, int elevations, const RunControl& control = {}) {
   BrdfFitOptions options;
   options.elevations = elevations;
+  options.tolerance = 0;
   return fit_brdfs(scene, options, control);
+}
+
+BrdfFitResult fit_within(const SceneDescription& scene, float tolerance) {
+  BrdfFitOptions options;
+  options.tolerance = tolerance;
+  return fit_brdfs(scene, options, {});
 }
 
 BrdfCache fit(const MaterialModel& model, int elevations) {
@@ -262,11 +269,13 @@ TEST(BrdfFit, EveryLobeGivesAFiniteMixtureUpToGrazingElevations) {
   const SceneDescription scene = shown(all_kinds());
   for (size_t m = 0; m < scene.materials.size(); ++m) {
     const Bsdf bsdf = resolve_mean(scene.materials, static_cast<int>(m));
-    const bool anisotropic = lobe_traits(scene.materials, static_cast<int>(m)).anisotropic;
-    for (const float degrees : {0.1f, 30.0f, 60.0f, 80.0f, 89.0f, 89.9f, 89.99f})
+    for (const float degrees : {0.1f, 30.0f, 60.0f, 80.0f, 89.0f, 89.9f, 89.99f}) {
+      const float theta = degrees * kPi / 180;
+      const Vec3 wo(std::sin(theta) * 0.8f, std::sin(theta) * 0.6f, std::cos(theta));
       expect_finite_fit(
-          lobe_targets(bsdf, degrees * kPi / 180, anisotropic),
+          {LobeTarget(bsdf, wo)},
           fmt::format("{} {} from {}", material_kind(scene.materials[m]), m, degrees));
+    }
   }
 }
 
@@ -284,18 +293,131 @@ TEST(BrdfFit, TexturedMaterialsAreFittedAtTheirMeanAndSaySo) {
   EXPECT_EQ(warnings[0], "material \"m0\" is textured: fitted at mean parameters");
 }
 
-TEST(BrdfFit, AnisotropicLobesAreFittedToTheirMeanAndSaySo) {
+TEST(BrdfFit, AnisotropicLobesAreFittedAsWellAsIsotropicOnes) {
   RoughConductorMaterial brushed = metal(0.05f);
   brushed.alpha_v = Texture(0.4f);
-  std::vector<std::string> warnings;
-  RunControl control;
-  control.on_warning = [&](const std::string& message) { warnings.push_back(message); };
-  const BrdfFitResult result = fit(shown({brushed}), 4, control);
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("mean over all azimuths"), std::string::npos);
-  // Mirror symmetry about the plane of wo.
-  for (const BrdfCacheEntry& entry : result.cache.entries)
-    EXPECT_NEAR(mean_of(mixture(result.cache, entry)).y(), 0, 0.05f);
+  WardMaterial ward;
+  ward.diffuse_reflectance = Texture(0.0f);
+  ward.alpha_u = Texture(0.05f), ward.alpha_v = Texture(0.3f);
+  BrdfFitOptions options;
+  options.elevations = options.directions = 128;
+  options.tolerance = 0;
+  const BrdfFitResult result =
+      fit_brdfs(shown({brushed, metal(0.05f), metal(0.4f), ward}), options, {});
+  EXPECT_EQ(result.cache.materials[0].layout, EntryLayout::fibonacci);
+  EXPECT_EQ(result.cache.materials[1].layout, EntryLayout::elevations);
+  const std::vector<MaterialFitSummary>& fits = result.summary.materials;
+  const double isotropic = std::max(fits[1].held_out_error, fits[2].held_out_error);
+  EXPECT_LT(fits[0].held_out_error, 1.2 * isotropic);  // averaged over azimuths it would be 1.25
+  EXPECT_LT(fits[3].held_out_error, 1.2 * isotropic);
+}
+
+TEST(BrdfFit, ASmallerToleranceGivesMoreEntriesUpToTheMost) {
+  RoughConductorMaterial brushed = metal(0.1f);
+  brushed.alpha_v = Texture(0.3f);
+  const SceneDescription scene = shown({metal(0.1f), brushed, RoughPlasticMaterial{}});
+  std::vector<int> last(3, 0);
+  for (const float tolerance : {0.5f, 0.1f, 0.03f}) {
+    const BrdfFitResult result = fit_within(scene, tolerance);
+    for (int i = 0; i < 3; ++i) {
+      const int entries = result.summary.materials[i].entries;
+      EXPECT_GE(entries, last[i]) << "tolerance " << tolerance << " material " << i;
+      EXPECT_LE(entries, i == 1 ? 4096 : 512);
+      last[i] = entries;
+    }
+  }
+  EXPECT_GT(last[1], 16);
+}
+
+TEST(BrdfFit, WithinTheToleranceFewEntriesFollowTheLobeAtAnyElevation) {
+  for (const float alpha : {0.3f, 0.05f, 0.01f}) {
+    const SceneDescription scene = shown({metal(alpha)});
+    const BrdfFitResult result = fit_within(scene, 0.03f);
+    const int n = result.summary.materials[0].entries;
+    EXPECT_LE(n, 64) << "alpha " << alpha;
+    const Bsdf bsdf = resolve_mean(scene.materials, 0);
+    double sum = 0;
+    constexpr int kPlaces = 40;
+    for (int i = 0; i < kPlaces; ++i) {
+      const Vec3 wo = wo_of(i, kPlaces);
+      const int entry = nearest_entry(EntryLayout::elevations, wo, n);
+      const Mat3 rotation = entry_rotation(EntryLayout::elevations, wo, entry, n);
+      const GaussianMixture g = mixture(result.cache, result.cache.entries[entry]);
+      sum += held_out_error({LobeTarget(bsdf, wo)}, g.carried(rotation), 3) / kPlaces;
+    }
+    EXPECT_LT(sum, result.summary.materials[0].held_out_error + 0.04) << "alpha " << alpha;
+  }
+}
+
+Texture board(float a, float b) {
+  Texture texture;
+  texture.source = CheckerboardTexture{Color::Constant(a), Color::Constant(b)};
+  return texture;
+}
+
+RoughConductorMaterial worn_metal(float least, float largest) {
+  RoughConductorMaterial m = metal(0.1f);
+  m.alpha_u = m.alpha_v = board(least, largest);
+  return m;
+}
+
+TEST(BrdfFit, ATexturedWidthGetsASeriesOfWidths) {
+  const BrdfFitResult result = fit_within(shown({worn_metal(0.05f, 0.4f)}), 0.05f);
+  const MaterialFit& fit = result.cache.materials[0];
+  ASSERT_GT(fit.widths.size(), 2u);
+  EXPECT_GE(fit.widths.front().width, 0.05f);
+  EXPECT_LE(fit.widths.back().width, 0.4f);
+  for (size_t i = 1; i < fit.widths.size(); ++i)
+    EXPECT_GT(fit.widths[i].width, fit.widths[i - 1].width);
+  EXPECT_EQ(fit.first_entry, fit.widths[fit.widths.size() / 2].first_entry);
+  EXPECT_LT(result.summary.materials[0].held_out_error, 0.25);
+}
+
+TEST(BrdfFit, AFamilyServesItsLobesOfAnyWidthAndNoOthers) {
+  BrdfFitOptions options;
+  options.tolerance = 0.1f;
+  const BrdfCache family = fit_family("roughconductor-ggx", options, {}).cache;
+  RoughPlasticMaterial plastic;
+  plastic.alpha = Texture(0.1f);
+  const BrdfFitResult result = fit_brdfs(shown({worn_metal(0.05f, 0.4f), metal(0.1f), plastic}),
+                                         options, {}, std::span(&family, 1));
+  EXPECT_TRUE(result.summary.materials[0].from_family);
+  EXPECT_GT(result.summary.materials[0].widths, 2);
+  EXPECT_LT(result.summary.materials[0].widths,
+            static_cast<int>(family.materials[0].widths.size()));
+  EXPECT_TRUE(result.summary.materials[1].from_family);
+  EXPECT_TRUE(result.cache.materials[1].widths.empty());
+  EXPECT_FALSE(result.summary.materials[2].from_family);
+}
+
+TEST(BrdfFit, AnUnknownFamilyIsRefusedWithThoseThereAre) {
+  try {
+    fit_family("velvet", {}, {});
+    FAIL();
+  } catch (const Misuse& e) {
+    EXPECT_STREQ(e.what(),
+                 "--family velvet: is none of roughconductor-ggx, roughconductor-beckmann, phong, "
+                 "ward");
+  }
+}
+
+TEST(BrdfFit, MaterialsThatDifferInColourOnlyShareTheirEntries) {
+  RoughConductorMaterial tinted = metal(0.2f);
+  tinted.specular_reflectance = Texture(Color(0.9f, 0.4f, 0.1f));
+  PhongMaterial phong, other_ratio, darker;
+  darker.diffuse_reflectance = Texture(0.25f), darker.specular_reflectance = Texture(0.1f);
+  other_ratio.diffuse_reflectance = Texture(0.1f);
+  const BrdfFitResult result =
+      fit(shown({DiffuseMaterial{Texture(0.5f)}, DiffuseMaterial{Texture(Color(0.9f, 0.1f, 0.2f))},
+                 metal(0.2f), tinted, phong, other_ratio, darker}),
+          4);
+  const std::vector<MaterialFitSummary>& fits = result.summary.materials;
+  EXPECT_EQ(fits[1].shares_with, "m0");
+  EXPECT_EQ(fits[5].shares_with, "");
+  EXPECT_EQ(fits[6].shares_with, "m4");
+  EXPECT_EQ(result.cache.materials[6].first_entry, result.cache.materials[4].first_entry);
+  EXPECT_EQ(result.summary.cost.entries, result.cache.entries.size());
+  EXPECT_EQ(result.summary.full.entries, 2u + 5 * 4);
 }
 
 TEST(BrdfFit, MaterialsWithoutAFitAreListedWithTheReason) {
@@ -388,6 +510,8 @@ TEST(BrdfFitOptionsTest, ValidateNamesTheField) {
   };
   EXPECT_EQ(message([](BrdfFitOptions&) {}), "");
   EXPECT_NE(message([](auto& o) { o.elevations = 0; }).find("--elevations 0"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.directions = 0; }).find("--directions 0"), std::string::npos);
+  EXPECT_NE(message([](auto& o) { o.tolerance = NAN; }).find("--tolerance nan"), std::string::npos);
   EXPECT_NE(message([](auto& o) { o.components = 9; }).find("--components 9"), std::string::npos);
   EXPECT_NE(message([](auto& o) { o.samples = 15; }).find("--samples 15"), std::string::npos);
   EXPECT_NE(message([](auto& o) { o.prior.a = 2; }).find("prior.a is 2"), std::string::npos);

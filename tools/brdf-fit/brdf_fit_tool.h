@@ -6,10 +6,15 @@
 namespace waylight {
 
 struct BrdfFitArguments {
-  SceneArguments scene;
+  SceneArguments scene;               // or
+  std::string family;                 // name
+  std::vector<std::string> families;  // files of families that may serve the scene
   std::string output;
   BrdfFitOptions options;
 };
+
+void add_family(CLI::App& app,
+                BrdfFitArguments& arguments);  // --family in place of SCENE, --family-file
 
 void brdf_fit(const ToolRun& run, const ToolInfo& tool, const BrdfFitArguments& arguments);
 

@@ -57,19 +57,35 @@ void add_provenance(Json& info, const Provenance& p) {
   info["parents"] = parents;
 }
 
+// The series of a material, one where its width is not textured.
+std::vector<WidthSeries> series_of(const MaterialFit& fit) {
+  if (!fit.widths.empty()) return fit.widths;
+  return {{0, fit.first_entry, fit.entry_count}};
+}
+
+const char* layout_name(const MaterialFit& fit) {
+  if (fit.layout == EntryLayout::fibonacci) return "directions";
+  return fit.entry_count > 1 ? "elevations" : "any";
+}
+
 Json describe_material(const MaterialFit& fit, const BrdfCache& cache) {
-  double components = 0, error = 0;
-  for (uint32_t i = fit.first_entry; i < fit.first_entry + fit.entry_count; ++i) {
-    components += cache.entries[i].component_count;
-    error += cache.entries[i].held_out_error;
-  }
+  double entries = 0, components = 0, error = 0;
+  const std::vector<WidthSeries> series = series_of(fit);
+  for (const WidthSeries& s : series)
+    for (uint32_t i = s.first_entry; i < s.first_entry + s.entry_count; ++i) {
+      ++entries;
+      components += cache.entries[i].component_count;
+      error += cache.entries[i].held_out_error;
+    }
   return {{"index", fit.material},
           {"name", fit.name},
           {"kind", fit.kind},
           {"textured", fit.textured},
-          {"entries", fit.entry_count},
-          {"components", components / fit.entry_count},
-          {"held_out_error", error / fit.entry_count}};
+          {"wo", layout_name(fit)},
+          {"widths", fit.widths.size()},
+          {"entries", static_cast<uint64_t>(entries)},
+          {"components", components / entries},
+          {"held_out_error", error / entries}};
 }
 
 Json describe_brdf(const std::string& path) {

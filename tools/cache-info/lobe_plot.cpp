@@ -9,8 +9,9 @@
 #include "formats/cache_file.h"
 #include "formats/photon_file.h"
 #include "libguide/base/error.h"
+#include "libguide/directional/entry_layout.h"
 #include "libguide/fit/fit_plan.h"
-#include "libguide/fit/lobe_fit.h"
+#include "libguide/fit/lobe_target.h"
 #include "libguide/math/frame.h"
 #include "tools/cache-info/disk_picture.h"
 #include "tools/common/provenance_of.h"
@@ -66,24 +67,25 @@ const MaterialFit& find_fit(const BrdfCache& cache, const std::string& target) {
                            target, names.empty() ? " none" : names));
 }
 
-// Of the lobe that the fit stands for, theta being the elevation of wo.
-DiskPicture picture_of_bsdf(const PlannedFit& planned, float theta, int size) {
-  const LobeTargets targets = lobe_targets(planned.bsdf, theta, planned.traits.anisotropic);
+// Of the lobe that the fit stands for.
+DiskPicture picture_of_bsdf(const Bsdf& bsdf, const Vec3& wo, int size) {
+  const LobeTarget target(bsdf, wo);
   DiskPicture picture(size);
-  picture.fill([&](const Vec2& y) {
-    const Vec3 wi = disk_to_direction(y);
-    double sum = 0;
-    for (const LobeTarget& target : targets) sum += target.evaluate(wi).f;
-    return sum;
-  });
+  picture.fill([&](const Vec2& y) { return target.evaluate(disk_to_direction(y)).f; });
   picture.normalize();
   return picture;
 }
 
-PlannedFit planned_fit(const SceneDescription& scene, const MaterialFit& fit) {
-  const FitPlan plan = plan_fits(scene, 1);
-  for (const PlannedFit& planned : plan.fits)
-    if (static_cast<uint32_t>(planned.material) == fit.material) return planned;
+// At its mean or, where the width is textured, at the width that the fit shows.
+Bsdf fitted_bsdf(const SceneDescription& scene, const MaterialFit& fit) {
+  const FitPlan plan = plan_fits(scene, 0);
+  for (const PlannedFit& planned : plan.fits) {
+    if (static_cast<uint32_t>(planned.material) != fit.material) continue;
+    for (const WidthSeries& s : fit.widths)
+      if (s.first_entry == fit.first_entry)
+        return resolve_at_width(scene.materials, planned.material, s.width);
+    return planned.bsdf;
+  }
   fail("material \"{}\" (number {}) of the scene has no lobe to draw", fit.name, fit.material);
 }
 
@@ -116,9 +118,11 @@ void plot_material(const ToolRun& run, const std::string& path,
   const BrdfFile file = read_brdf(path);
   const MaterialFit& fit = find_fit(file.cache, arguments.target);
   const int count = static_cast<int>(fit.entry_count);
-  const int row = std::min(static_cast<int>(arguments.elevation / 90 * count), count - 1);
+  const float asked = arguments.elevation * (kPi / 180);
+  const Vec3 from(std::sin(asked), 0, std::cos(asked));
+  const int row = nearest_entry(fit.layout, from, count);
+  const Vec3 wo = count > 1 ? entry_wo(fit.layout, row, count) : from;
   const BrdfCacheEntry& entry = file.cache.entries[fit.first_entry + row];
-  const float theta = count > 1 ? entry_theta(row, count) : arguments.elevation * (kPi / 180);
   std::vector<DiskPicture> pictures = {picture_of(
       std::span(file.cache.components).subspan(entry.first_component, entry.component_count),
       arguments.size)};
@@ -126,12 +130,12 @@ void plot_material(const ToolRun& run, const std::string& path,
     const SceneDescription scene = load_scene(arguments.scene, run);
     require_same_scene(path, file.provenance, file_name(arguments.scene.path), scene.hash,
                        SceneParts::materials);
-    pictures.push_back(picture_of_bsdf(planned_fit(scene, fit), theta, arguments.size));
+    pictures.push_back(picture_of_bsdf(fitted_bsdf(scene, fit), wo, arguments.size));
   }
   write_disks(arguments.output, pictures);
   report(run, arguments,
          fmt::format("{} at {:.1f} degrees, {} components, held-out error {:.3f}{}", fit.name,
-                     theta * (180 / kPi), entry.component_count, entry.held_out_error,
+                     std::acos(wo.z()) * (180 / kPi), entry.component_count, entry.held_out_error,
                      pictures.size() > 1 ? "; the BSDF on the right" : ""));
 }
 

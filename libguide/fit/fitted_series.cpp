@@ -1,0 +1,92 @@
+#include "libguide/fit/fitted_series.h"
+
+#include "libguide/fit/lobe_family.h"
+#include "libguide/fit/width_plan.h"
+
+namespace waylight {
+namespace {
+
+// Series that are fitted, and their places in the result.
+struct Work {
+  struct Place {
+    size_t fit;  // of the plan
+    float width;
+  };
+  std::vector<Place> places;
+  std::vector<FitRefinement> refinements;
+
+  void add(const Place& place, const PlannedFit& fit, const Bsdf& bsdf,
+           const SeriesLimits& limits) {
+    // So few entries that no lobe which depends on wo is served by them.
+    const int first = fit.layout == EntryLayout::fibonacci ? 16 : 2;
+    places.push_back(place);
+    refinements.emplace_back(wo_places(std::make_shared<const Bsdf>(bsdf), fit.layout), first,
+                             most_entries(fit, limits), limits.tolerance, limits.lobe);
+  }
+};
+
+void add_fit(Work& work, const SceneDescription& scene, size_t index, const PlannedFit& fit,
+             const SeriesLimits& limits, const RunControl& control) {
+  if (!fit.width_range) return work.add({index, 0}, fit, fit.bsdf, limits);
+  for (const float width : plan_widths(scene.materials, fit.material, *fit.width_range,
+                                       limits.tolerance, limits.lobe, control))
+    work.add({index, width}, fit, resolve_at_width(scene.materials, fit.material, width), limits);
+}
+
+std::vector<FittedSeries> from_families(const SceneDescription& scene, const PlannedFit& fit,
+                                        std::span<const BrdfCache> families,
+                                        const SeriesLimits& limits) {
+  if (!fit.traits.depends_on_wo || fit.layout != EntryLayout::elevations) return {};
+  for (const BrdfCache& family : families)
+    if (std::vector<FittedSeries> series =
+            family_series(family, scene.materials, fit, limits.tolerance, limits.lobe.seed);
+        !series.empty())
+      return series;
+  return {};
+}
+
+bool complete(std::span<const FitRefinement> refinements) {
+  return std::all_of(refinements.begin(), refinements.end(),
+                     [](const FitRefinement& r) { return r.tasks() == 0; });
+}
+
+// Moves the complete fits into the result.
+void collect(const Work& work, std::vector<std::vector<FittedSeries>>& result) {
+  for (size_t first = 0; first < work.places.size();) {
+    const size_t fit = work.places[first].fit;
+    size_t count = 0;
+    while (first + count < work.places.size() && work.places[first + count].fit == fit) ++count;
+    const auto refinements = std::span(work.refinements).subspan(first, count);
+    for (size_t i = 0; i < count && complete(refinements); ++i)
+      result[fit].push_back({work.places[first + i].width, refinements[i].entries(),
+                             refinements[i].seconds(), refinements[i].seconds_per_fit()});
+    first += count;
+  }
+}
+
+}  // namespace
+
+int most_entries(const PlannedFit& fit, const SeriesLimits& limits) {
+  if (!fit.traits.depends_on_wo) return 1;
+  return fit.layout == EntryLayout::fibonacci ? limits.directions : limits.elevations;
+}
+
+std::vector<std::vector<FittedSeries>> fit_series(const SceneDescription& scene,
+                                                  const FitPlan& plan,
+                                                  std::span<const BrdfCache> families,
+                                                  const SeriesLimits& limits,
+                                                  const RunControl& control) {
+  std::vector<std::vector<FittedSeries>> result(plan.fits.size());
+  Work work;
+  for (size_t f = 0; f < plan.fits.size(); ++f) {
+    const PlannedFit& fit = plan.fits[f];
+    if (fit.same_as >= 0) continue;
+    result[f] = from_families(scene, fit, families, limits);
+    if (result[f].empty()) add_fit(work, scene, f, fit, limits, control);
+  }
+  refine_all(work.refinements, control);
+  collect(work, result);
+  return result;
+}
+
+}  // namespace waylight
