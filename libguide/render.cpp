@@ -9,8 +9,27 @@
 #include "libguide/scene/camera.h"
 #include "libguide/transport/film.h"
 #include "libguide/transport/path_tracer.h"
+#include "libguide/transport/pixel_estimate.h"
 
 namespace waylight {
+
+namespace {
+
+Roulette roulette_of(const RenderOptions& options) {
+  switch (options.roulette) {
+    case RouletteMode::none:
+      return Roulette::none;
+    case RouletteMode::throughput:
+      return Roulette::throughput;
+    case RouletteMode::guided:
+      return Roulette::guided;
+    case RouletteMode::automatic:
+      break;
+  }
+  return options.mode == RenderMode::bsdf ? Roulette::throughput : Roulette::guided;
+}
+
+}  // namespace
 
 void RenderOptions::validate() const {
   require(spp > 0 || time > 0 || error > 0, "one of --spp, --time and --error must be given");
@@ -24,11 +43,17 @@ void RenderOptions::validate() const {
   require(rr_depth >= -1, "--rr-depth must not be negative");
   require(roulette != RouletteMode::guided || mode != RenderMode::bsdf,
           "--rr guided needs the cache of --mode illumination or product");
+  require(split >= 1 && split <= kMaxSplit, "--split must be in [1, {}], not {}", kMaxSplit, split);
+  require(split == 1 || roulette_of(*this) == Roulette::guided,
+          "--split needs guided roulette: --mode illumination or product, --rr guided or auto");
   require(guiding_prob == -1 || (guiding_prob >= 0 && guiding_prob <= 0.99f),
           "--guiding-prob must be in [0, 0.99], or -1 for the mode's own, not {}", guiding_prob);
 }
 
 namespace {
+
+constexpr int kTile = 16;  // pixels along a side
+constexpr double kTileArea = kTile * kTile;
 
 using Clock = std::chrono::steady_clock;
 
@@ -37,9 +62,10 @@ double seconds_since(Clock::time_point start) {
 }
 
 // The sums, then the image of every channel, and its copy while it is written.
-void require_memory_for(const FilmDescription& film) {
+void require_memory_for(const FilmDescription& film, bool segments) {
   constexpr double kChannels = 16, kBytesPerPixel = sizeof(PixelSums) + 2 * kChannels * 4;
-  const double needed = kBytesPerPixel * film.crop_width * film.crop_height;
+  const double per_pixel = kBytesPerPixel + (segments ? sizeof(SegmentSums) / kTileArea : 0);
+  const double needed = per_pixel * film.crop_width * film.crop_height;
   const double limit = static_cast<double>(memory_limit_bytes());
   require(
       needed <= limit,
@@ -74,22 +100,8 @@ FilmDescription film_of(const FilmDescription& scene_film, const RenderOptions& 
               film.crop_y + film.crop_height <= film.height,
           "the crop window {}x{}+{}+{} leaves the film of {}x{} pixels", film.crop_width,
           film.crop_height, film.crop_x, film.crop_y, film.width, film.height);
-  require_memory_for(film);
+  require_memory_for(film, options.segments);
   return film;
-}
-
-Roulette roulette_of(const RenderOptions& options) {
-  switch (options.roulette) {
-    case RouletteMode::none:
-      return Roulette::none;
-    case RouletteMode::throughput:
-      return Roulette::throughput;
-    case RouletteMode::guided:
-      return Roulette::guided;
-    case RouletteMode::automatic:
-      break;
-  }
-  return options.mode == RenderMode::bsdf ? Roulette::throughput : Roulette::guided;
 }
 
 PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& options) {
@@ -101,6 +113,7 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
   const float own_prob = options.mode == RenderMode::product ? 0.7f : 0.5f;
   result.guiding_prob = options.guiding_prob < 0 ? own_prob : options.guiding_prob;
   result.roulette = roulette_of(options);
+  result.max_split = options.split;
   result.max_depth = options.max_depth == -2 ? defaults.max_depth : options.max_depth;
   result.rr_depth = options.rr_depth == -1 ? defaults.rr_depth : options.rr_depth;
   result.hide_emitters = defaults.hide_emitters;
@@ -126,10 +139,15 @@ class Renderer {
         filter_(crop_),
         guiding_(caches.brdf, caches.guide, scene.description().materials),
         tracer_(scene, guiding_, tracer_options(scene, options)),
-        film_(crop_.crop_width, crop_.crop_height) {}
+        film_(crop_.crop_width, crop_.crop_height),
+        tiles_x_((film_.width() + kTile - 1) / kTile),
+        tiles_y_((film_.height() + kTile - 1) / kTile),
+        segments_(options.segments ? size_t(tiles_x_) * tiles_y_ : 0) {}
 
   void run() {
     const Clock::time_point start = Clock::now();
+    estimate_pixels();
+    preview_seconds_ = seconds_since(start);
     int done = 0;
     for (int count = 1; count > 0 && !stopped_; count = next_pass(done, seconds_since(start))) {
       render_pass(done, count);
@@ -141,10 +159,17 @@ class Renderer {
 
   const Film& film() const { return film_; }
   double seconds() const { return seconds_; }
+  double preview_seconds() const { return preview_seconds_; }
+  uint64_t preview_rays() const { return preview_rays_; }
   bool interrupted() const { return stopped_; }
+  // Added in the order of tiles, so that threads do not matter.
+  SegmentSums segments() const {
+    SegmentSums sums;
+    for (const SegmentSums& tile : segments_) sums.merge(tile);
+    return sums;
+  }
 
  private:
-  static constexpr int kTile = 16;
   static constexpr int kMaxPass = 16;
 
   // Samples per pixel of the next pass; 0 when the render is done.
@@ -152,35 +177,45 @@ class Renderer {
     int count = std::min(done, kMaxPass);
     if (options_.spp > 0) count = std::min(count, options_.spp - done);
     if (options_.time > 0) {
-      const double left = (options_.time - seconds) / (seconds / done);
+      const double left = (options_.time - seconds) / ((seconds - preview_seconds_) / done);
       count = left < 0.5 ? 0 : std::min(count, std::max(1, int(left)));
     }
     if (options_.error > 0 && done >= 4 && film_.estimated_relmse() <= options_.error) count = 0;
     return count;
   }
 
+  void estimate_pixels() {
+    if (roulette_of(options_) != Roulette::guided) return;
+    if (options_.pixel_estimate != PixelEstimateMode::preview) return;
+    const Preview preview = render_preview(tracer_, camera_, crop_, options_.seed, stopped_);
+    estimates_ = PixelEstimates(preview);
+    preview_rays_ = preview.rays;
+  }
+
   void render_pass(int first, int count) {
-    const int tiles_x = (film_.width() + kTile - 1) / kTile;
-    const int tiles_y = (film_.height() + kTile - 1) / kTile;
-    parallel_for(size_t(tiles_x) * tiles_y, [&](size_t tile) {
-      const int x0 = int(tile % tiles_x) * kTile, y0 = int(tile / tiles_x) * kTile;
+    parallel_for(size_t(tiles_x_) * tiles_y_, [&](size_t tile) {
+      const int x0 = int(tile % tiles_x_) * kTile, y0 = int(tile / tiles_x_) * kTile;
+      SegmentSums* segments = segments_.empty() ? nullptr : &segments_[tile];
       for (int y = y0; y < std::min(y0 + kTile, film_.height()); ++y)
         for (int x = x0; x < std::min(x0 + kTile, film_.width()); ++x)
-          if (!stopped_) render_pixel(x, y, first, count);
+          if (!stopped_) render_pixel(x, y, first, count, segments);
       if (control_.stopped()) stopped_ = true;
     });
   }
 
-  void render_pixel(int x, int y, int first, int count) {
+  void render_pixel(int x, int y, int first, int count, SegmentSums* segments) {
     const int film_x = crop_.crop_x + x, film_y = crop_.crop_y + y;
+    PathContext context{estimates_.at(film_x, film_y), 1, segments};
     const uint64_t stream = uint64_t(film_y) * crop_.width + film_x;
     for (int s = first; s < first + count; ++s) {
       Sampler sampler(options_.seed, stream, s);
       const FilterSampler::Sample offset = filter_.sample(sampler.next_2d());
       const Vec2 pixel = Vec2(film_x + 0.5f, film_y + 0.5f) + offset.offset;
       const Ray ray = camera_.ray(pixel, sampler.next_2d());
-      film_.at(x, y).add(tracer_.trace(ray, sampler), offset.weight);
+      context.filter_weight = offset.weight;
+      film_.at(x, y).add(tracer_.trace(ray, sampler, context), offset.weight);
     }
+    if (segments) segments->samples += count;
   }
 
   void report(int done, double seconds) const {
@@ -199,8 +234,12 @@ class Renderer {
   FilterSampler filter_;
   GuidingCaches guiding_;
   PathTracer tracer_;
+  PixelEstimates estimates_;
   Film film_;
-  double seconds_ = 0;
+  int tiles_x_, tiles_y_;
+  std::vector<SegmentSums> segments_;  // one per tile; empty when not asked for
+  double seconds_ = 0, preview_seconds_ = 0;
+  uint64_t preview_rays_ = 0;
   std::atomic<bool> stopped_{false};
 };
 
@@ -220,7 +259,12 @@ RenderSummary summarize(const Renderer& renderer) {
   summary.mean_path_length = double(totals.edges) / std::max<double>(totals.samples, 1);
   summary.guiding_share = double(totals.guided) / std::max<double>(totals.scatterings, 1);
   summary.estimated_relmse = film.estimated_relmse();
-  summary.rays = totals.rays;
+  summary.rays = totals.rays + renderer.preview_rays();
+  summary.preview_seconds = renderer.preview_seconds();
+  const double samples = std::max<double>(totals.samples, 1);
+  summary.killed_share = double(totals.killed) / (samples + double(totals.copies));
+  summary.copies_per_path = double(totals.copies) / samples;
+  summary.segments = renderer.segments();
   summary.invalid_samples = totals.invalid;
   return summary;
 }

@@ -8,6 +8,7 @@
 #include "libguide/records/aov_set.h"
 #include "libguide/records/brdf_cache.h"
 #include "libguide/scene/scene.h"
+#include "libguide/transport/segment_sums.h"
 
 namespace waylight {
 
@@ -15,6 +16,10 @@ enum class RenderMode { bsdf, illumination, product };
 
 // automatic: guided where the mode has a cache, by throughput in mode bsdf.
 enum class RouletteMode { automatic, none, throughput, guided };
+
+// What guided roulette and splitting compare a path with: the caches at its own first vertex that
+// has one, or a filtered preview of the image.
+enum class PixelEstimateMode { cache, preview };
 
 struct RenderOptions {
   RenderMode mode = RenderMode::bsdf;
@@ -25,11 +30,15 @@ struct RenderOptions {
   uint64_t seed = 0;
   int width = 0, height = 0;  // 0: the scene's; cropped scenes keep their window in proportion
   int crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0;  // pixels; crop_width 0: scene's
-  int max_depth = -2;         // path edges; -1 no limit, -2 the scene's
-  int rr_depth = -1;          // path edges before Russian roulette; -1 the scene's
+  int max_depth = -2;  // path edges; -1 no limit, -2 the scene's
+  int rr_depth = -1;   // path edges before Russian roulette; -1 the scene's
   RouletteMode roulette = RouletteMode::automatic;
-  // Share of smooth scattering sampled from the guide, 0..0.99; -1: 0.5 of illumination, which knows
-  // nothing of the BSDF, and 0.7 of product, the best of 0.3 .. 0.9 in two measured interiors.
+  int split = 1;  // copies that guided roulette may make of a path at one vertex, 1 .. 20
+  PixelEstimateMode pixel_estimate = PixelEstimateMode::cache;
+  bool segments = false;  // sum contributions by the number of edges
+  // Share of smooth scattering sampled from the guide, 0..0.99; -1: 0.5 of illumination, which
+  // knows nothing of the BSDF, and 0.7 of product, the best of 0.3 .. 0.9 in two measured
+  // interiors.
   float guiding_prob = -1;
   AovSet aovs;
 
@@ -45,13 +54,17 @@ struct RenderCaches {
 struct RenderSummary {
   int width = 0, height = 0;  // of the image
   double mean_spp = 0;
-  double seconds = 0;            // rendering alone
-  uint64_t rays = 0;             // camera, scattered and shadow rays
-  double mean_path_length = 0;   // edges
+  double seconds = 0;            // rendering alone, the preview included
+  double preview_seconds = 0;    // of them
+  uint64_t rays = 0;             // camera, scattered and shadow rays, those of the preview included
+  double mean_path_length = 0;   // edges per camera path, those of its copies included
+  double killed_share = 0;       // paths ended by roulette, per path: camera paths and copies
+  double copies_per_path = 0;    // made by splitting, per camera path
   double guiding_share = 0;      // share of smooth scattering events that had a guide
   double estimated_relmse = 0;   // of the image, from its own variance
   uint64_t invalid_samples = 0;  // NaN or infinite, counted as zero
   bool interrupted = false;
+  SegmentSums segments;  // with options.segments only
 };
 
 // Channels R, G, B and those of `aovs`. The same bytes for equal inputs at any thread count, unless

@@ -4,6 +4,19 @@
 #include "libguide/math/warp.h"
 
 namespace waylight {
+namespace {
+
+constexpr float kMinMeanCosine = 0.05f;
+
+// Mean of cos = 1 - |y|^2 over lobes on the disk, about the normal that their frame stands on.
+float mean_cosine(std::span<const GaussianComponent> lobes) {
+  float cosine = 1;
+  for (const GaussianComponent& g : lobes)
+    cosine -= g.weight * (sqr(g.mean_x) + sqr(g.mean_y) + g.cov_xx + g.cov_yy);
+  return std::max(cosine, kMinMeanCosine);
+}
+
+}  // namespace
 
 DirectionSampler::DirectionSampler(const Scene& scene, const GuidingCaches& caches,
                                    DirectionGuide guide, float guiding_prob, const SurfacePoint& at,
@@ -47,6 +60,7 @@ bool DirectionSampler::prepare_product(const GuidingCaches& caches, const Surfac
       cell_frame_.to_local(shading.n);
   brdf_ = GaussianMixture(lobe.components).carried(to_cell * lobe.to_shading);
   product_.emplace(brdf_, light_);
+  reflected_per_irradiance_ = product_->z() / (2 * mean_cosine(lobe.components));
   return product_->valid();
 }
 

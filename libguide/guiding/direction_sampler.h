@@ -41,10 +41,14 @@ class DirectionSampler {
 
   bool has_smooth() const { return has_smooth_; }
   bool guided() const { return guiding_prob_ > 0; }
-  // Luminance of the radiance that the surface reflects towards wo, as the cell's irradiance on a
-  // diffuse surface of equal albedo would have it; 0 where no cell is known.
+  // Luminance of the radiance that the surface reflects towards wo, of the light that the cell
+  // knows of: E rho / pi where there is no fit, as if diffuse. With one, f ~ F p_f and Li cos ~ E
+  // p_L give
+  //   E F integral(p_f p_L) = E rho Z / (2 <cos>),  F = rho / <cos>,
+  // where <cos> is the mean cosine under p_f, and Z / 2 the product's integral per steradian.
+  // 0 where no cell is known.
   float reflected_estimate() const {
-    return irradiance_ * kInvPi * luminance(resolved_.bsdf.mean_reflectance());
+    return irradiance_ * reflected_per_irradiance_ * luminance(resolved_.bsdf.mean_reflectance());
   }
   const ResolvedBsdf& resolved() const { return resolved_; }
 
@@ -67,7 +71,8 @@ class DirectionSampler {
   bool has_smooth_ = false;
   float delta_prob_ = 0;
   float guiding_prob_ = 0;
-  float irradiance_ = 0;  // of the cell; 0 where none is known
+  float irradiance_ = 0;                     // of the cell; 0 where none is known
+  float reflected_per_irradiance_ = kInvPi;  // of a surface with albedo 1
   Frame cell_frame_;
   GaussianMixture light_;
   GaussianMixture brdf_;

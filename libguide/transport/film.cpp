@@ -10,6 +10,8 @@ void PixelSums::add(const PathRecord& path, float filter_weight) {
   scatterings += path.scatterings;
   guided += path.guided;
   rays += path.rays;
+  killed += path.killed;
+  copies += path.copies;
   if (!is_finite(path.radiance)) {
     ++invalid;
     return;
@@ -107,6 +109,8 @@ FilmTotals Film::totals() const {
     totals.scatterings += pixel.scatterings;
     totals.guided += pixel.guided;
     totals.rays += pixel.rays;
+    totals.killed += pixel.killed;
+    totals.copies += pixel.copies;
     totals.invalid += pixel.invalid;
   }
   return totals;

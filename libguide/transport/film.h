@@ -19,7 +19,7 @@ struct PixelSums {
   uint32_t hits = 0;  // samples that met a surface
   uint32_t samples = 0;
   uint32_t invalid = 0;
-  uint64_t edges = 0, scatterings = 0, guided = 0, rays = 0;
+  uint64_t edges = 0, scatterings = 0, guided = 0, rays = 0, killed = 0, copies = 0;
 
   // filter_weight: of reconstruction by filter importance sampling.
   void add(const PathRecord& path, float filter_weight);
@@ -29,7 +29,8 @@ struct PixelSums {
 
 // Over all pixels, in pixel order.
 struct FilmTotals {
-  uint64_t samples = 0, edges = 0, scatterings = 0, guided = 0, rays = 0, invalid = 0;
+  uint64_t samples = 0, edges = 0, scatterings = 0, guided = 0, rays = 0, killed = 0, copies = 0;
+  uint64_t invalid = 0;
 };
 
 class Film {

@@ -1,33 +1,51 @@
 #pragma once
-// One camera path with next-event estimation; the same loop for every mode.
+// One camera path and its copies, with next-event estimation; the same loop for every mode.
 
 #include "libguide/base/sampler.h"
 #include "libguide/guiding/direction_sampler.h"
 #include "libguide/scene/scene.h"
+#include "libguide/transport/segment_sums.h"
 
 namespace waylight {
 
 // Russian roulette. throughput: by what BSDF sampling would have made of the throughput, after
 // rr_depth edges. guided: by the path's expected contribution, as caches have it, over that of its
-// first vertex with a cache [Vorba, Krivanek 2016]; by throughput where no cache is known.
+// pixel (weight_window.h); by throughput where no cache is known.
+// Both are played after next-event estimation: what they credit is the light that is still to come,
+// which is what caches hold that dropped direct photons.
 enum class Roulette { none, throughput, guided };
+
+// Bounds of splitting, whatever the caches say: copies made at one vertex, copies of one camera
+// path that wait, and copies made of one camera path in all. Past the last, roulette is by
+// throughput.
+inline constexpr int kMaxSplit = 20, kMaxWaiting = 32, kMaxCopies = 64;
 
 struct PathTracerOptions {
   DirectionGuide guide = DirectionGuide::none;
   float guiding_prob = 0.5f;
   Roulette roulette = Roulette::throughput;
+  int max_split = 1;           // copies at one vertex under guided roulette, 1 .. kMaxSplit
   int max_depth = -1;          // path edges; -1 no limit
   int rr_depth = 5;            // path edges before Russian roulette
   bool hide_emitters = false;  // emitters and environment are invisible to the camera itself
 };
 
-// What one path found besides its radiance.
+// What is known of a path before it is traced.
+struct PathContext {
+  float pixel_estimate = 0;  // I, luminance; 0: as caches have it at the first vertex with one
+  float filter_weight = 1;   // of the contributions to `segments`
+  SegmentSums* segments = nullptr;
+};
+
+// What one camera path found, with all its copies.
 struct PathRecord {
   Color radiance = Color::Zero();
   Color albedo = Color::Zero();
   Vec3 normal = Vec3::Zero();
   float depth = 0;           // distance to the first surface; 0 when there is none
   uint32_t edges = 0;        // surfaces that the path scattered at, plus one
+  uint32_t killed = 0;       // times that roulette ended it
+  uint32_t copies = 0;       // that splitting added
   uint32_t scatterings = 0;  // smooth ones
   uint32_t guided = 0;       // smooth ones that had a guide
   uint32_t rays = 0;
@@ -38,19 +56,23 @@ class PathTracer {
   PathTracer(const Scene& scene, const GuidingCaches& caches, const PathTracerOptions& options)
       : scene_(scene), caches_(caches), options_(options) {}
 
-  PathRecord trace(Ray ray, Sampler& sampler) const;
+  PathRecord trace(const Ray& ray, const Sampler& sampler, const PathContext& context = {}) const;
 
  private:
   struct State;
-  bool advance(State& state, Sampler& sampler) const;
-  std::optional<SurfacePoint> next_surface(State& state, Sampler& sampler) const;
-  void add_emission(State& state, const SurfacePoint& at) const;
-  void add_environment(State& state) const;
-  void add_direct_light(State& state, const SurfacePoint& at, const DirectionSampler& directions,
-                        Sampler& sampler) const;
-  static bool play(State& state, float survival_prob, Sampler& sampler);
-  bool survives_guided(State& state, const DirectionSampler& directions, Sampler& sampler) const;
-  bool survives_throughput(State& state, Sampler& sampler) const;
+  struct Walk;
+  bool advance(Walk& walk, State& state) const;
+  std::optional<SurfacePoint> next_surface(Walk& walk, State& state) const;
+  void add_emission(Walk& walk, const State& state, const SurfacePoint& at) const;
+  void add_environment(Walk& walk, const State& state) const;
+  void add_direct_light(Walk& walk, State& state, const SurfacePoint& at,
+                        const DirectionSampler& directions) const;
+  int choose_copies(Walk& walk, State& state, const DirectionSampler& directions) const;
+  bool scatter_copies(Walk& walk, State& state, int copies, const SurfacePoint& at,
+                      const DirectionSampler& directions) const;
+  bool scatter(Walk& walk, State& state, const SurfacePoint& at,
+               const DirectionSampler& directions) const;
+  bool survives_throughput(State& state) const;
 
   const Scene& scene_;
   const GuidingCaches& caches_;

@@ -3,35 +3,17 @@
 #include <gtest/gtest.h>
 
 #include "common/small_scenes.h"
+#include "common/trained.h"
 #include "libguide/base/error.h"
 #include "libguide/base/parallel.h"
-#include "libguide/brdf_fit.h"
-#include "libguide/cache_train.h"
-#include "libguide/photon_trace.h"
 #include "libguide/render.h"
 
 namespace waylight {
 namespace {
 
-struct Trained {
-  BrdfCache brdf;
-  GuideCache guide;
-
-  RenderCaches caches() const { return {&brdf, GuideCacheView(guide)}; }
-};
-
-Trained train(const Scene& scene, uint64_t photons) {
-  PhotonTraceOptions trace;
-  trace.count = photons;
-  CacheTrainOptions options;
-  options.photons_per_cell = 1000;
-  options.direct = DirectLight::drop;  // next-event estimation has it; kept, it costs 15 %
-  CacheTrainer trainer(options, {scene.bounds(), photons, 0});
-  trace_photons(scene, trace, [&](std::span<const Photon> batch) { trainer.consume(batch); }, {});
-  BrdfFitOptions fit;
-  fit.elevations = 32;
-  return {fit_brdfs(scene.description(), fit, {}).cache, trainer.finish(nullptr)};
-}
+using testing::mean_z;
+using testing::train;
+using testing::Trained;
 
 Image render_mode(const Scene& scene, const Trained& trained, RenderMode mode, int spp,
                   uint64_t seed, RenderSummary* summary = nullptr,
@@ -43,19 +25,6 @@ Image render_mode(const Scene& scene, const Trained& trained, RenderMode mode, i
   options.seed = seed;
   options.aovs.variance = true;
   return render(scene, trained.caches(), options, summary, {});
-}
-
-// z of the difference of the image means of two renders.
-double mean_z(const Image& a, const Image& b) {
-  double difference = 0, variance = 0;
-  for (int y = 0; y < a.height; ++y)
-    for (int x = 0; x < a.width; ++x)
-      for (int c = 0; c < 3; ++c) {
-        difference += a.at(x, y, c) - b.at(x, y, c);
-        variance += a.at(x, y, 3 + c) + b.at(x, y, 3 + c);
-      }
-  // Channels of one pixel go together: three times the variance bounds their covariance.
-  return difference / std::sqrt(3 * variance);
 }
 
 // Share of pixels whose z-score is beyond three.

@@ -95,6 +95,19 @@ void ChartOptions::validate() const {
   require(output.ends_with(".svg"), "-o \"{}\" does not end in .svg", output);
 }
 
+ChartOptions with_columns_of_table(const ChartOptions& options) {
+  const ChartOptions standard;
+  if (options.x != standard.x || options.y != standard.y || options.preprocess) return options;
+  const CsvTable table = read_csv(options.tables[0]);
+  if (table.find("seconds") >= 0 || table.find("edges") < 0 || table.find("contribution") < 0)
+    return options;
+  ChartOptions result = options;
+  result.x = "edges";
+  result.y = "contribution";
+  result.linear = "xy";
+  return result;
+}
+
 std::vector<ChartLine> chart_lines(const ChartOptions& options) {
   std::vector<Row> rows;
   for (const std::string& path : options.tables) read_rows(path, options, rows);

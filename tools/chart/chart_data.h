@@ -22,6 +22,10 @@ struct ChartOptions {
   bool has_slope() const { return linear.empty() && (x == "seconds" || x == "spp"); }
 };
 
+// The options, with the columns `edges` and `contribution` on linear axes where the first table is
+// one of `render --segments` and neither --x nor --y says otherwise.
+ChartOptions with_columns_of_table(const ChartOptions& options);
+
 // Rows that share line and x: the geometric mean of y, and its range over seeds.
 struct ChartPoint {
   double x = 0, y = 0, low = 0, high = 0;

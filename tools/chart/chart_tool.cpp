@@ -7,8 +7,9 @@
 
 namespace waylight {
 
-void chart(const ChartOptions& options) {
-  options.validate();
+void chart(const ChartOptions& given) {
+  given.validate();
+  const ChartOptions options = with_columns_of_table(given);
   const std::vector<ChartLine> lines = chart_lines(options);
   const auto draw = [&](ChartFormat format, const std::string& path) {
     write_atomically(path, [&](const std::string& temporary) {

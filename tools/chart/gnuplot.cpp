@@ -74,6 +74,8 @@ std::string label_of(const std::string& column) {
   if (column == "relmse_trimmed") return "relMSE without the worst 0.1 % of the pixels";
   if (column == "mape") return "MAPE";
   if (column == "mse") return "MSE";
+  if (column == "edges") return "path edges";
+  if (column == "contribution") return "share of the luminance";
   return column;
 }
 

@@ -15,9 +15,11 @@ constexpr ToolInfo kTool = {
     R"(Tables are those of `image-compare --csv`, or any with a heading: --x, --y and --lines name columns.
 Rows of one line and x (several seeds) become one point, their geometric mean, and a band from the
 smallest to the largest. The dashed line has slope -1: the error of an unbiased method falls along it.
+Tables of `render --segments` become the share of the luminance over the number of path edges.
 
 Examples:
   chart room.csv -o room.svg --title "Room" --preprocess
+  chart bsdf.csv product.csv -o segments.svg
   chart reduction.csv -o reduction.svg --x components --y relmse --linear x)"};
 
 void declare(CLI::App& app, ChartOptions& options) {

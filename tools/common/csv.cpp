@@ -58,13 +58,6 @@ std::string quoted(const std::string& cell) {
   return text;
 }
 
-std::string join_line(const std::vector<std::string>& cells) {
-  std::string line;
-  for (const std::string& cell : cells) line.append(quoted(cell)).push_back(',');
-  line.back() = '\n';
-  return line;
-}
-
 // The row in the order of the columns.
 std::vector<std::string> arrange(const CsvRow& row, const std::vector<std::string>& columns,
                                  const std::string& path) {
@@ -110,6 +103,13 @@ int CsvTable::find(const std::string& column) const {
   return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
 }
 
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& cell : cells) line.append(quoted(cell)).push_back(',');
+  line.back() = '\n';
+  return line;
+}
+
 CsvTable read_csv(const std::string& path) {
   const std::string text = read_whole_file(path);
   if (text.empty()) fail("\"{}\": is empty, a header is needed", path);
@@ -123,12 +123,12 @@ void append_csv(const std::string& path, const CsvRow& row) {
   std::string addition;
   if (text.empty()) {
     for (const auto& [column, cell] : row) columns.push_back(column);
-    addition = join_line(columns);
+    addition = csv_line(columns);
   } else {
     columns = parse_csv(text, path).columns;
     if (text.back() != '\n') addition.push_back('\n');
   }
-  file.append(addition + join_line(arrange(row, columns, path)));
+  file.append(addition + csv_line(arrange(row, columns, path)));
 }
 
 }  // namespace waylight

@@ -17,6 +17,9 @@ struct CsvTable {
 // Throws Error naming path and line of the defect.
 CsvTable read_csv(const std::string& path);
 
+// The cells as one line of a table, its newline included.
+std::string csv_line(const std::vector<std::string>& cells);
+
 using CsvRow = std::vector<std::pair<std::string, std::string>>;  // column, cell
 
 // Adds one row; a new or empty file gets the columns of the row as its header first. Columns that

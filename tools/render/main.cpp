@@ -34,9 +34,12 @@ void declare(CLI::App& app, RenderArguments& arguments) {
   as_output(app.add_option("--png", arguments.png, "The image as sRGB picture too (.png)"),
             {".png"});
   add_mode(app, options.mode);
-  add_roulette(app, options.roulette);
+  add_roulette(app, options);
   as_input(app.add_option("--cache", arguments.cache, "Illumination cache"));
   as_input(app.add_option("--brdf", arguments.brdf, "Fitted BSDFs"));
+  as_output(app.add_option("--segments", arguments.segments,
+                           "Contribution by number of edges, as a table (.csv)"),
+            {".csv"});
   add_stopping(app, options);
   add_frame(app, arguments);
   app.add_option("--seed", options.seed, "Seed of the random numbers");

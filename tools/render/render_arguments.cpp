@@ -12,6 +12,8 @@ constexpr int kDefaultSpp = 64;
 
 // In the order of RenderMode.
 const std::vector<std::string> kModes = {"bsdf", "illumination", "product"};
+// In the order of RouletteMode.
+const std::vector<std::string> kRoulettes = {"auto", "none", "throughput", "guided"};
 
 const std::map<std::string, bool AovSet::*>& aov_names() {
   static const std::map<std::string, bool AovSet::*> kNames = {
@@ -58,12 +60,18 @@ void add_mode(CLI::App& app, RenderMode& mode) {
       "What directions are sampled from");
 }
 
-void add_roulette(CLI::App& app, RouletteMode& mode) {
-  // In the order of RouletteMode.
+void add_roulette(CLI::App& app, RenderOptions& options) {
   add_choice(
-      app, "--rr", {"auto", "none", "throughput", "guided"},
-      [&mode](size_t i) { mode = static_cast<RouletteMode>(i); },
+      app, "--rr", kRoulettes,
+      [&options](size_t i) { options.roulette = static_cast<RouletteMode>(i); },
       "Russian roulette; auto: guided where there is a cache");
+  app.add_option("--split", options.split,
+                 "Copies that guided roulette may make of a path at a vertex, 1 to 20; 1: none");
+  // In the order of PixelEstimateMode.
+  add_choice(
+      app, "--pixel-estimate", {"cache", "preview"},
+      [&options](size_t i) { options.pixel_estimate = static_cast<PixelEstimateMode>(i); },
+      "What guided roulette compares paths with");
 }
 
 void add_stopping(CLI::App& app, RenderOptions& options) {
@@ -94,10 +102,18 @@ RenderOptions complete_options(const RenderArguments& arguments) {
   read_crop(arguments.crop, options);
   for (const std::string& name : arguments.aovs) add_aov(name, options.aovs);
   if (options.spp == 0 && options.time == 0 && options.error == 0) options.spp = kDefaultSpp;
+  options.segments = !arguments.segments.empty();
   options.validate();
   return options;
 }
 
 const char* mode_name(RenderMode mode) { return kModes[static_cast<size_t>(mode)].c_str(); }
+
+std::string method_name(const RenderOptions& options) {
+  std::string name = mode_name(options.mode);
+  if (options.roulette != RouletteMode::automatic)
+    name += ", roulette " + kRoulettes[static_cast<size_t>(options.roulette)];
+  return options.split > 1 ? name + ", split" : name;
+}
 
 }  // namespace waylight

@@ -10,4 +10,8 @@ RenderOptions complete_options(const RenderArguments& arguments);
 
 const char* mode_name(RenderMode mode);
 
+// The mode, with roulette and splitting where they are not the mode's own: the name of a line in a
+// chart.
+std::string method_name(const RenderOptions& options);
+
 }  // namespace waylight

@@ -5,12 +5,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "formats/atomic_file.h"
 #include "formats/brdf_file.h"
 #include "formats/cache_file.h"
 #include "formats/image_io.h"
 #include "libguide/base/error.h"
 #include "tools/common/provenance_of.h"
 #include "tools/render/render_arguments.h"
+#include "tools/render/segment_table.h"
 
 namespace waylight {
 namespace {
@@ -75,8 +77,11 @@ void report(const ToolRun& run, const Provenance& provenance, RenderMode mode,
                 {"spp", s.mean_spp},
                 {"width", s.width},
                 {"height", s.height},
+                {"preview_seconds", s.preview_seconds},
                 {"rays", s.rays},
                 {"mean_path_length", s.mean_path_length},
+                {"killed_share", s.killed_share},
+                {"copies_per_path", s.copies_per_path},
                 {"guiding_share", s.guiding_share},
                 {"estimated_relmse", s.estimated_relmse},
                 {"invalid_samples", s.invalid_samples},
@@ -89,6 +94,7 @@ void report(const ToolRun& run, const Provenance& provenance, RenderMode mode,
 
 void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arguments) {
   const RenderOptions options = complete_options(arguments);
+  if (!arguments.segments.empty()) check_writable(arguments.segments);
   SceneDescription description = load_scene(arguments.scene, run);
   const LoadedCaches loaded(arguments, description);
   Provenance provenance = provenance_of(run, tool, options.seed, arguments.scene, description.hash);
@@ -103,6 +109,9 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
   if (summary.mean_spp < 1) run.stop_if_interrupted();  // a part of the pixels is no image
   write_exr(arguments.output, image, exr_attributes(provenance));
   if (!arguments.png.empty()) write_png(arguments.png, image);
+  if (!arguments.segments.empty())
+    write_segment_table(arguments.segments, file_name(arguments.scene.path), method_name(options),
+                        summary.segments);
   report(run, provenance, options.mode, summary);
 }
 

@@ -7,14 +7,14 @@ namespace waylight {
 
 struct RenderArguments {
   SceneArguments scene;
-  std::string output, png, cache, brdf;
+  std::string output, png, cache, brdf, segments;
   std::string size, crop;         // WxH; X,Y,W,H
   std::vector<std::string> aovs;  // names
   RenderOptions options;
 };
 
 void add_mode(CLI::App& app, RenderMode& mode);            // --mode
-void add_roulette(CLI::App& app, RouletteMode& mode);      // --rr
+void add_roulette(CLI::App& app, RenderOptions& options);  // --rr, --split, --pixel-estimate
 void add_stopping(CLI::App& app, RenderOptions& options);  // --spp, --time, --error
 void add_frame(CLI::App& app, RenderArguments& frame);     // --size, --crop, --aov
 
