@@ -18,14 +18,16 @@ static_assert(offsetof(CellTraining, flux) == 64 && offsetof(CellTraining, weigh
 
 namespace {
 
-constexpr uint32_t kFormatVersion = 1;
+// Readers of version 1 take everything for radiance.
+constexpr uint32_t kFormatVersion = 2, kRadianceVersion = 1;
 
 size_t bytes_needed(const CacheFile& file) {
   const GuideCache& c = file.cache;
   return provenance_bytes(file.provenance) + c.nodes.size() * sizeof(CacheNode) +
          c.cells.size() * sizeof(CacheCell) + c.components.size() * sizeof(GaussianComponent) +
          c.statistics.size() * sizeof(ComponentStatistics) +
-         c.training.size() * sizeof(CellTraining);
+         c.training.size() * sizeof(CellTraining) +
+         (c.escape_bins.size() + c.escape_weights.size()) * sizeof(float);
 }
 
 // What is wrong with the training part; check() of the view comes first.
@@ -75,12 +77,18 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
   const auto components = add_records(builder, c.components);
   const auto cells = add_records(builder, c.cells);
   const auto nodes = add_records(builder, c.nodes);
+  const bool radiance = c.quantity == Quantity::radiance;
+  flatbuffers::Offset<flatbuffers::Vector<uint32_t>> escape_bins;
+  flatbuffers::Offset<flatbuffers::Vector<float>> escape_weights;
+  if (!c.escape_bins.empty()) escape_bins = builder.CreateVector(c.escape_bins);
+  if (!c.escape_bins.empty()) escape_weights = builder.CreateVector(c.escape_weights);
   const auto provenance = add_provenance(builder, file.provenance);
   const fbs::Bounds bounds = waylight::to_flat(c.scene_bounds);
   fbs::FinishGuideCacheBuffer(
-      builder,
-      fbs::CreateGuideCache(builder, kFormatVersion, provenance, &bounds, c.emitted, c.passes,
-                            c.photons, nodes, cells, components, statistics, training));
+      builder, fbs::CreateGuideCache(builder, radiance ? kRadianceVersion : kFormatVersion,
+                                     provenance, &bounds, c.emitted, c.passes, c.photons, nodes,
+                                     cells, components, statistics, training,
+                                     waylight::to_flat(c.quantity), escape_bins, escape_weights));
 }
 
 const fbs::GuideCache& root_of(const FileMap& map) {
@@ -88,11 +96,18 @@ const fbs::GuideCache& root_of(const FileMap& map) {
                                         fbs::GuideCacheIdentifier(), kFormatVersion);
 }
 
+template <typename Number>
+std::span<const Number> numbers_of(const flatbuffers::Vector<Number>* vector) {
+  return vector ? std::span(vector->data(), vector->size()) : std::span<const Number>();
+}
+
 GuideCacheView view_of(const fbs::GuideCache& root, const std::string& path) {
-  const GuideCacheView view(from_flat(*root.scene_bounds()),
-                            records_of<CacheNode>(root.nodes(), path),
-                            records_of<CacheCell>(root.cells(), path),
-                            records_of<GaussianComponent>(root.components(), path));
+  GuideCacheView view(from_flat(*root.scene_bounds()), records_of<CacheNode>(root.nodes(), path),
+                      records_of<CacheCell>(root.cells(), path),
+                      records_of<GaussianComponent>(root.components(), path));
+  view.quantity = quantity_from(root.quantity(), path);
+  view.escape_bins = numbers_of(root.escape_bins());
+  view.escape_weights = numbers_of(root.escape_weights());
   if (const std::string fault = check(view); !fault.empty()) fail_damaged(path, fault);
   return view;
 }
@@ -100,7 +115,10 @@ GuideCacheView view_of(const fbs::GuideCache& root, const std::string& path) {
 GuideCache copy_of(const fbs::GuideCache& root, const std::string& path) {
   const GuideCacheView view = view_of(root, path);
   GuideCache cache;
+  cache.quantity = view.quantity;
   cache.scene_bounds = view.scene_bounds;
+  cache.escape_bins = waylight::copy_of(view.escape_bins);
+  cache.escape_weights = waylight::copy_of(view.escape_weights);
   cache.emitted = root.emitted();
   cache.passes = root.passes();
   cache.photons = root.photons();

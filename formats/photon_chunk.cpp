@@ -6,9 +6,10 @@
 namespace waylight {
 namespace {
 
-constexpr uint32_t kFormatVersion = 1;
+// Readers of version 1 take everything for radiance, and know no escapes.
+constexpr uint32_t kFormatVersion = 2, kRadianceVersion = 1;
 
-static_assert(sizeof(fbs::Photon) == 36);
+static_assert(sizeof(fbs::Photon) == 36 && sizeof(fbs::Escape) == 32);
 
 // A NaN fails every comparison.
 bool sensible(const Vec3& position, const Color& power) {
@@ -33,7 +34,19 @@ Photon unpack(const fbs::Photon& flat) {
   return photon;
 }
 
+Escape unpack(const fbs::Escape& flat) {
+  return {from_flat(flat.origin()), from_octahedral({flat.direction_u(), flat.direction_v()}),
+          from_flat(flat.power()).array(), flat.path_depth()};
+}
+
 }  // namespace
+
+fbs::Escape pack(const Escape& e, const std::string& path) {
+  if (!sensible(e.origin, e.power) || !is_unit(e.direction))
+    fail("\"{}\": an escape is not finite, of negative power or without unit direction", path);
+  const Octahedral direction = to_octahedral(e.direction);
+  return {to_flat(e.origin), to_flat(e.power), direction.u, direction.v, e.path_depth};
+}
 
 fbs::Photon pack(const Photon& p, const std::string& path) {
   if (!sensible(p.position, p.power) || !is_unit(p.direction) || !is_unit(p.normal))
@@ -51,9 +64,11 @@ void build_header(flatbuffers::FlatBufferBuilder& builder, const PhotonHeader& h
   const auto provenance = add_provenance(builder, header.provenance);
   const PhotonStreamInfo& stream = header.stream;
   const fbs::Bounds bounds = to_flat(stream.scene_bounds);
-  const auto flat = fbs::CreatePhotonHeader(builder, kFormatVersion, provenance,
+  const uint32_t version =
+      stream.quantity == Quantity::radiance ? kRadianceVersion : kFormatVersion;
+  const auto flat = fbs::CreatePhotonHeader(builder, version, provenance,
                                             stream.scene_bounds.empty() ? nullptr : &bounds,
-                                            stream.emitted, stream.pass);
+                                            stream.emitted, stream.pass, to_flat(stream.quantity));
   finish(builder, fbs::ChunkContent::PhotonHeader, flat.Union());
 }
 
@@ -63,10 +78,16 @@ void build_block(flatbuffers::FlatBufferBuilder& builder, std::span<const fbs::P
   finish(builder, fbs::ChunkContent::PhotonBlock, fbs::CreatePhotonBlock(builder, vector).Union());
 }
 
+void build_block(flatbuffers::FlatBufferBuilder& builder, std::span<const fbs::Escape> escapes) {
+  builder.Clear();
+  const auto vector = builder.CreateVectorOfStructs(escapes.data(), escapes.size());
+  finish(builder, fbs::ChunkContent::EscapeBlock, fbs::CreateEscapeBlock(builder, vector).Union());
+}
+
 void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& c) {
   builder.Clear();
   const auto end = fbs::CreatePhotonEnd(builder, c.emitted, c.stored, c.left_scene, c.absorbed,
-                                        c.too_deep, c.invalid);
+                                        c.too_deep, c.invalid, c.escapes);
   finish(builder, fbs::ChunkContent::PhotonEnd, end.Union());
 }
 
@@ -93,6 +114,7 @@ PhotonHeader header_of(const fbs::PhotonHeader& flat, size_t chunk_bytes, const 
   }
   header.stream.emitted = flat.emitted();
   header.stream.pass = flat.pass();
+  header.stream.quantity = quantity_from(flat.quantity(), path);
   return header;
 }
 
@@ -108,6 +130,18 @@ void photons_of(const fbs::PhotonBlock& flat, const std::string& path,
   }
 }
 
+void escapes_of(const fbs::EscapeBlock& flat, const std::string& path,
+                std::vector<Escape>* escapes) {
+  const auto* packed = flat.escapes();
+  escapes->resize(packed ? packed->size() : 0);
+  for (uint32_t i = 0; i < escapes->size(); ++i) {
+    Escape& escape = (*escapes)[i];
+    escape = unpack(*packed->Get(i));
+    if (!sensible(escape.origin, escape.power))
+      fail_damaged(path, "an escape is not finite or of negative power");
+  }
+}
+
 PhotonCounts counts_of(const fbs::PhotonEnd& flat) {
   PhotonCounts counts;
   counts.emitted = flat.emitted();
@@ -116,6 +150,7 @@ PhotonCounts counts_of(const fbs::PhotonEnd& flat) {
   counts.absorbed = flat.absorbed();
   counts.too_deep = flat.too_deep();
   counts.invalid = flat.invalid();
+  counts.escapes = flat.escapes();
   return counts;
 }
 

@@ -20,11 +20,13 @@ inline constexpr size_t kMaxChunkBytes = size_t{4} << 20;
 // The photon as it is stored; throws Error for one that the reader would refuse. `path` is for
 // messages.
 fbs::Photon pack(const Photon& photon, const std::string& path);
+fbs::Escape pack(const Escape& escape, const std::string& path);
 
 // Each replaces what the builder held by one finished chunk.
 void build_header(flatbuffers::FlatBufferBuilder& builder, const PhotonHeader& header,
                   const std::string& path);
 void build_block(flatbuffers::FlatBufferBuilder& builder, std::span<const fbs::Photon> photons);
+void build_block(flatbuffers::FlatBufferBuilder& builder, std::span<const fbs::Escape> escapes);
 void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& counts);
 
 // A chunk with its size prefix, verified.
@@ -33,6 +35,8 @@ const fbs::PhotonChunk& verified_chunk(std::string_view bytes, const std::string
 PhotonHeader header_of(const fbs::PhotonHeader& flat, size_t chunk_bytes, const std::string& path);
 void photons_of(const fbs::PhotonBlock& flat, const std::string& path,
                 std::vector<Photon>* photons);
+void escapes_of(const fbs::EscapeBlock& flat, const std::string& path,
+                std::vector<Escape>* escapes);
 PhotonCounts counts_of(const fbs::PhotonEnd& flat);
 
 }  // namespace waylight

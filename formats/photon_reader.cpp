@@ -52,6 +52,9 @@ struct PhotonReader::Impl {
     if (counts.stored != photons_read)
       fail_damaged(source.name(),
                    fmt::format("{} photons, and its end says {}", photons_read, counts.stored));
+    if (counts.escapes != escapes_read)
+      fail_damaged(source.name(),
+                   fmt::format("{} escapes, and its end says {}", escapes_read, counts.escapes));
     char extra;
     if (source.read({&extra, 1}) != 0) fail_damaged(source.name(), "data after its end");
     ended = true;
@@ -73,7 +76,8 @@ struct PhotonReader::Impl {
   size_t chunk_size = 0;
   PhotonHeader header;
   PhotonCounts counts;
-  uint64_t photons_read = 0;
+  uint64_t photons_read = 0, escapes_read = 0;
+  std::vector<Escape> unwanted;
   bool ended = false;
 };
 
@@ -85,14 +89,21 @@ PhotonReader::~PhotonReader() = default;
 
 const PhotonHeader& PhotonReader::header() const { return impl_->header; }
 
-bool PhotonReader::read(std::vector<Photon>* photons) {
+bool PhotonReader::read(std::vector<Photon>* photons, std::vector<Escape>* escapes) {
+  if (!escapes) escapes = &impl_->unwanted;
   photons->clear();
+  escapes->clear();
   if (impl_->ended) return false;
   const fbs::PhotonChunk* chunk = impl_->next_chunk();
   if (!chunk) impl_->fail_truncated();
   if (const fbs::PhotonEnd* end = chunk->content_as_PhotonEnd()) {
     impl_->read_end(*end);
     return false;
+  }
+  if (const fbs::EscapeBlock* block = chunk->content_as_EscapeBlock()) {
+    escapes_of(*block, impl_->source.name(), escapes);
+    impl_->escapes_read += escapes->size();
+    return true;
   }
   const fbs::PhotonBlock* block = chunk->content_as_PhotonBlock();
   if (!block) fail_damaged(impl_->source.name(), "a chunk that is out of place");

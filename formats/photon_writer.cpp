@@ -11,24 +11,36 @@ struct PhotonWriter::Impl {
 
   void write_chunk() { sink.write(bytes_of(builder)); }
 
-  // Chunks are cut after equal numbers of photons, however the photons come.
-  void flush() {
-    if (pending.empty()) return;
-    build_block(builder, pending);
+  // Chunks are cut after equal numbers of records, however the records come.
+  template <typename Record, typename Flat>
+  void append(std::span<const Record> records, std::vector<Flat>& waiting, uint64_t& written) {
+    for (const Record& record : records) {
+      waiting.push_back(pack(record, path));
+      if (waiting.size() == kPhotonsPerChunk) flush(waiting, written);
+    }
+  }
+
+  template <typename Flat>
+  void flush(std::vector<Flat>& waiting, uint64_t& written) {
+    if (waiting.empty()) return;
+    build_block(builder, waiting);
     write_chunk();
-    stored += pending.size();
-    pending.clear();
+    written += waiting.size();
+    waiting.clear();
   }
 
   std::string path;
   ByteSink sink;
   flatbuffers::FlatBufferBuilder builder;
   std::vector<fbs::Photon> pending;
-  uint64_t stored = 0;
+  std::vector<fbs::Escape> pending_escapes;
+  uint64_t stored = 0, escapes = 0;
+  Quantity quantity;
 };
 
 PhotonWriter::PhotonWriter(const std::string& path, const PhotonHeader& header)
     : impl_(std::make_unique<Impl>(path)) {
+  impl_->quantity = header.stream.quantity;
   build_header(impl_->builder, header, path);
   impl_->write_chunk();
 }
@@ -36,17 +48,21 @@ PhotonWriter::PhotonWriter(const std::string& path, const PhotonHeader& header)
 PhotonWriter::~PhotonWriter() = default;
 
 void PhotonWriter::write(std::span<const Photon> photons) {
-  for (const Photon& photon : photons) {
-    impl_->pending.push_back(pack(photon, impl_->path));
-    if (impl_->pending.size() == kPhotonsPerChunk) impl_->flush();
-  }
+  impl_->append(photons, impl_->pending, impl_->stored);
+}
+
+void PhotonWriter::write(std::span<const Escape> escapes) {
+  if (impl_->quantity != Quantity::importance && !escapes.empty())
+    fail("\"{}\": only importons escape, and the stream holds radiance", impl_->path);
+  impl_->append(escapes, impl_->pending_escapes, impl_->escapes);
 }
 
 void PhotonWriter::finish(const PhotonCounts& counts) {
-  impl_->flush();
-  if (counts.stored != impl_->stored)
-    fail("\"{}\": {} photons were written and {} counted", impl_->path, impl_->stored,
-         counts.stored);
+  impl_->flush(impl_->pending, impl_->stored);
+  impl_->flush(impl_->pending_escapes, impl_->escapes);
+  if (counts.stored != impl_->stored || counts.escapes != impl_->escapes)
+    fail("\"{}\": {} photons and {} escapes were written, {} and {} counted", impl_->path,
+         impl_->stored, impl_->escapes, counts.stored, counts.escapes);
   build_end(impl_->builder, counts);
   impl_->write_chunk();
   impl_->sink.commit();

@@ -7,6 +7,7 @@
 
 #include "libguide/base/error.h"
 #include "libguide/base/parallel.h"
+#include "libguide/cache/escape_histogram.h"
 #include "libguide/cache/guide_cache_view.h"
 #include "libguide/cache/training_check.h"
 #include "libguide/cache/training_tree.h"
@@ -51,7 +52,16 @@ bool is_valid(const Photon& photon, const Bounds& bounds, float emitted) {
          is_unit(photon.direction) && contains(bounds, photon.position);
 }
 
-void check_previous(const GuideCache& cache) {
+bool is_valid(const Escape& escape, const Bounds& bounds, float emitted) {
+  const float weight = luminance(escape.power) * emitted;
+  return weight > 0 && weight < 1e30f && (escape.power >= 0).all() && is_unit(escape.direction) &&
+         contains(bounds, escape.origin);
+}
+
+void check_previous(const GuideCache& cache, Quantity stream) {
+  if (cache.quantity != stream)
+    fail("the previous cache holds {} and the stream {}: train each in a cache of its own",
+         quantity_name(cache.quantity), quantity_name(stream));
   if (cache.training.size() != cache.cells.size() ||
       cache.statistics.size() != cache.components.size())
     fail(
@@ -82,6 +92,7 @@ struct CacheTrainer::Impl {
   Impl(const CacheTrainOptions& options, const PhotonStreamInfo& stream, GuideCache previous);
 
   void consume(std::span<const Photon> photons);
+  void consume(std::span<const Escape> escapes);
   GuideCache finish(CacheTrainSummary* summary);
 
  private:
@@ -96,8 +107,11 @@ struct CacheTrainer::Impl {
   GuideCache cache_;  // without its cells while they are in training
   TrainingTree tree_;
   Bounds accepted_;
+  EscapeMap escape_map_;
+  EscapeHistogram escapes_;
   float emitted_;
   size_t cells_before_;
+  TrainingClock clock_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 
   std::vector<Photon> block_;
@@ -113,17 +127,22 @@ CacheTrainer::Impl::Impl(const CacheTrainOptions& options, const PhotonStreamInf
       emitted_(static_cast<float>(stream.emitted)) {
   if (stream.emitted == 0) fail("the photon stream does not say how many particles were emitted");
   if (!previous.nodes.empty()) {
-    check_previous(previous);
+    check_previous(previous, stream.quantity);
     tree_ = TrainingTree(previous);
+    escapes_ = EscapeHistogram(previous);
   }
   previous.scene_bounds.extend(stream.scene_bounds);
   if (previous.scene_bounds.empty() || !std::isfinite(previous.scene_bounds.radius()))
     fail("the bounds of the scene in the photon stream are empty or not finite");
+  cache_.quantity = stream.quantity;
   cache_.scene_bounds = previous.scene_bounds;
   cache_.emitted = previous.emitted + stream.emitted;
   cache_.passes = previous.passes + 1;
   cache_.photons = previous.photons;
+  clock_.photons_before = static_cast<double>(previous.photons);
+  clock_.particles_before = static_cast<double>(previous.emitted);
   accepted_ = grown(cache_.scene_bounds);
+  escape_map_ = EscapeMap(cache_.scene_bounds);
   tree_options_ = {static_cast<size_t>(options.photons_per_cell),
                    static_cast<size_t>(options.max_cells), options.normal_spread,
                    kMinExtent * 2 * cache_.scene_bounds.radius()};
@@ -137,6 +156,17 @@ void CacheTrainer::Impl::consume(std::span<const Photon> photons) {
     block_.insert(block_.end(), photons.begin(), photons.begin() + taken);
     photons = photons.subspan(taken);
     if (taken == wanted) process_block();
+  }
+}
+
+void CacheTrainer::Impl::consume(std::span<const Escape> escapes) {
+  totals_.escapes += escapes.size();
+  for (const Escape& escape : escapes) {
+    const bool valid = is_valid(escape, accepted_, emitted_);
+    const bool dropped = valid && cell_options_.drop_direct && escape.path_depth == 0;
+    totals_.rejected += !valid;
+    totals_.dropped_direct += dropped;
+    if (valid && !dropped) escapes_.add(escape_map_, escape, emitted_);
   }
 }
 
@@ -159,9 +189,11 @@ void CacheTrainer::Impl::find_leaves() {
     const size_t end = std::min(block_.size(), (task + 1) * kPhotonsPerTask);
     for (size_t i = task * kPhotonsPerTask; i < end; ++i) {
       const bool valid = is_valid(block_[i], accepted_, emitted_);
-      leaf_[i] = valid ? tree_.find(block_[i]) : LeafOrder::kNone;
+      const bool dropped = valid && cell_options_.drop_direct && block_[i].path_depth == 0;
+      const bool counts = valid && !(dropped && cache_.quantity == Quantity::importance);
+      leaf_[i] = counts ? tree_.find(block_[i]) : LeafOrder::kNone;
       rejected[task] += !valid;
-      direct[task] += valid && cell_options_.drop_direct && block_[i].path_depth == 0;
+      direct[task] += dropped;
     }
   });
   for (size_t task = 0; task < tasks; ++task) {
@@ -189,9 +221,11 @@ void CacheTrainer::Impl::flush_cells() {
 GuideCache CacheTrainer::Impl::finish(CacheTrainSummary* summary) {
   if (!block_.empty()) process_block();
   flush_cells();
-  const double photons_per_particle =
-      static_cast<double>(cache_.photons) / static_cast<double>(cache_.emitted);
-  tree_.store(cache_, tree_options_, photons_per_particle);
+  clock_.photons = static_cast<double>(cache_.photons);
+  clock_.particles = static_cast<double>(cache_.emitted);
+  tree_.restate_exposure(clock_);
+  tree_.store(cache_, tree_options_, clock_.photons / clock_.particles);
+  escapes_.store(cache_);
   if (summary) summarise(cache_, *summary);
   return std::move(cache_);
 }
@@ -206,7 +240,7 @@ void CacheTrainer::Impl::summarise(const GuideCache& cache, CacheTrainSummary& s
     ++summary.cells_with_mixture;
     summary.mean_components += cell.component_count;
     summary.mean_effective_samples += cell.effective_samples;
-    summary.lost_mass += 1 - cell.guided_mass;
+    summary.lost_mass += std::max(0.0f, 1 - cell.guided_mass);
   }
   const double mixtures = std::max<double>(1, static_cast<double>(summary.cells_with_mixture));
   summary.mean_components /= mixtures;
@@ -227,6 +261,11 @@ CacheTrainer::~CacheTrainer() = default;
 void CacheTrainer::consume(std::span<const Photon> photons) {
   require(impl_ != nullptr, "the cache trainer has finished: make another to go on");
   impl_->consume(photons);
+}
+
+void CacheTrainer::consume(std::span<const Escape> escapes) {
+  require(impl_ != nullptr, "the cache trainer has finished: make another to go on");
+  impl_->consume(escapes);
 }
 
 GuideCache CacheTrainer::finish(CacheTrainSummary* summary) {

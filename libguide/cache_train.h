@@ -11,7 +11,11 @@
 
 namespace waylight {
 
-enum class DirectLight { keep, drop };  // photons straight from an emitter: NEE samples those well
+// Photons straight from an emitter, which next-event estimation samples well, and importons
+// straight from the camera, which photons cannot hit. Dropped, such photons still count in the
+// irradiance; such importons count in nothing, so that the cache has what photons bring to the
+// image by way of a further surface.
+enum class DirectLight { keep, drop };
 
 struct CacheTrainOptions {
   int components = 8;           // K, 1..8
@@ -25,7 +29,7 @@ struct CacheTrainOptions {
 };
 
 struct CacheTrainSummary {
-  uint64_t photons = 0, rejected = 0, dropped_direct = 0;
+  uint64_t photons = 0, rejected = 0, dropped_direct = 0, escapes = 0;
   size_t cells = 0, cells_with_mixture = 0, cells_made = 0;
   uint64_t weights_capped = 0;  // photons that weighed too much against their cell's mean
   double mean_components = 0, mean_effective_samples = 0, lost_mass = 0;
@@ -43,6 +47,7 @@ class CacheTrainer {
   ~CacheTrainer();
 
   void consume(std::span<const Photon> photons);
+  void consume(std::span<const Escape> escapes);
   GuideCache finish(CacheTrainSummary* summary);
 
  private:

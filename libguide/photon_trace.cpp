@@ -22,34 +22,43 @@ namespace {
 constexpr uint64_t kParticlesPerBlock = 1024;
 constexpr uint64_t kBlocksPerRound = 64;
 
-// What one block of particles left behind; kept apart so that the order is that of the particles.
-struct Block {
-  std::vector<Photon> photons;
-  PhotonCounts counts;
-};
+// Importons draw other numbers than the photons of the same pass.
+uint64_t stream_of(const PhotonTraceOptions& options) {
+  return options.pass | uint64_t{options.quantity == Quantity::importance} << 32;
+}
 
+// One block's records are kept apart so that the order is that of the particles.
 void trace_block(const PhotonTracer& tracer, const PhotonTraceOptions& options, uint64_t first,
-                 Block* block) {
+                 PhotonRecords* block) {
   block->photons.clear();
+  block->escapes.clear();
   block->counts = {};
   const uint64_t last = std::min(first + kParticlesPerBlock, options.count);
   for (uint64_t i = first; i < last; ++i) {
-    Sampler sampler(options.seed, options.pass, static_cast<uint32_t>(i));
-    tracer.trace(sampler, &block->photons, &block->counts);
+    Sampler sampler(options.seed, stream_of(options), static_cast<uint32_t>(i));
+    tracer.trace(sampler, block);
   }
 }
 
 }  // namespace
 
 PhotonTraceSummary trace_photons(const Scene& scene, const PhotonTraceOptions& options,
-                                 const PhotonSink& sink, const RunControl& control) {
+                                 const PhotonSink& photons, const RunControl& control,
+                                 const EscapeSink& escapes, const GuideCacheView& importance) {
   options.validate();
-  if (!scene.has_lights()) fail("the scene has no emitter, so there are no photons to trace");
+  require(importance.cells.empty() || options.quantity == Quantity::radiance,
+          "--importance guides photons: it does not go with --from camera");
+  if (!importance.cells.empty() && importance.quantity != Quantity::importance)
+    fail("photons are guided by a cache of importance, and this one holds radiance");
+  if (options.quantity == Quantity::radiance && !scene.has_lights())
+    fail("the scene has no emitter, so there are no photons to trace");
   const auto start = std::chrono::steady_clock::now();
-  const PhotonTracer tracer(scene, options.max_depth, options.rr_depth,
-                            1.0f / static_cast<float>(options.count));
+  const PhotonTracer tracer(scene,
+                            {options.quantity, options.max_depth, options.rr_depth,
+                             1.0f / static_cast<float>(options.count)},
+                            importance);
   PhotonTraceSummary summary;
-  std::vector<Block> blocks(kBlocksPerRound);
+  std::vector<PhotonRecords> blocks(kBlocksPerRound);
   const uint64_t round = kParticlesPerBlock * kBlocksPerRound;
   for (uint64_t first = 0; first < options.count && !control.stopped(); first += round) {
     const uint64_t left = options.count - first;
@@ -59,7 +68,8 @@ PhotonTraceSummary trace_photons(const Scene& scene, const PhotonTraceOptions& o
       trace_block(tracer, options, first + b * kParticlesPerBlock, &blocks[b]);
     });
     for (size_t b = 0; b < used; ++b) {
-      sink(blocks[b].photons);
+      photons(blocks[b].photons);
+      if (escapes) escapes(blocks[b].escapes);
       summary += blocks[b].counts;
     }
     control.progress(double(summary.emitted), double(options.count), "particles");

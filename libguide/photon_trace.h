@@ -1,16 +1,20 @@
 #pragma once
-// Stage: particles from the emitters, stored where they meet surfaces that are not purely specular.
+// Stage: particles from the emitters or from the camera, stored where they meet surfaces that are
+// not purely specular.
 
 #include <functional>
 #include <span>
 
 #include "libguide/base/run_control.h"
+#include "libguide/cache/guide_cache_view.h"
 #include "libguide/records/photon.h"
 #include "libguide/scene/scene.h"
 
 namespace waylight {
 
 struct PhotonTraceOptions {
+  // radiance: photons from the emitters; importance: importons from the camera.
+  Quantity quantity = Quantity::radiance;
   uint64_t count = 1'000'000;  // particles emitted, 1..4e9
   uint64_t seed = 0;
   uint32_t pass = 0;   // each pass has its own random numbers
@@ -24,10 +28,15 @@ struct PhotonTraceSummary : PhotonCounts {
   double seconds = 0;
 };
 
-// Called in order, from one thread, with the photons of one chunk.
+// Called in order, from one thread, with what some particles left behind.
 using PhotonSink = std::function<void(std::span<const Photon>)>;
+using EscapeSink = std::function<void(std::span<const Escape>)>;
 
+// escapes: may be empty; only importons escape, and only towards distant emitters. importance: a
+// cache of importance that guides photons, or an empty one.
 PhotonTraceSummary trace_photons(const Scene& scene, const PhotonTraceOptions& options,
-                                 const PhotonSink& sink, const RunControl& control);
+                                 const PhotonSink& photons, const RunControl& control,
+                                 const EscapeSink& escapes = {},
+                                 const GuideCacheView& importance = {});
 
 }  // namespace waylight

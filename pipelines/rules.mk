@@ -2,6 +2,7 @@
 #
 #   make -f pipelines/gap-room.mk            everything: caches, images, figures, chart
 #   make -f pipelines/gap-room.mk cache      the caches only
+#   make -f pipelines/gap-room.mk passes-chart PASSES=4    error after each pass of training
 #   make -f pipelines/gap-room.mk clean
 #
 # Every stage keeps its options in a stamp, so changing one reruns only what depends on it. Outputs
@@ -21,6 +22,10 @@
 # SEED             of everything random
 # SEEDS            seeds of the renders, for charts with a band                $(SEED)
 # PHOTONS          particles to emit in one pass
+# PASSES           passes in which importons train an importance cache and photons guided by it the
+#                  radiance cache, each going on from the pass before; 0: photons unguided, once
+# IMPORTONS        importons of one pass
+# PASSES_SPP       samples per pixel of the renders of passes-chart
 # TIMES            seconds of the renders in the chart
 # METHODS          what to compare: render modes, or names of your own with a mode and flags, as in
 #                  METHODS='product product-8' mode_product-8=product flags_product-8='--max-depth 8'
@@ -40,6 +45,9 @@ SIZE ?= 320x180
 SEED ?= 1
 SEEDS ?= $(SEED)
 PHOTONS ?= 1000000
+PASSES ?= 0
+IMPORTONS ?= 250000
+PASSES_SPP ?= 32
 TIMES ?= 2 4 8 16
 METHODS ?= bsdf illumination product
 REFERENCE_SPP ?= 4096
@@ -47,9 +55,10 @@ REFERENCE ?= $(OUT)/reference.exr
 SCENE_INPUTS ?=
 QUIET ?=
 
-.PHONY: all cache images chart reference clean FORCE
+.PHONY: all cache images chart passes-chart reference clean FORCE
 all: chart
 chart: $(OUT)/$(NAME).svg
+passes-chart: $(OUT)/passes.svg
 reference: $(OUT)/reference.exr
 
 # $(call stamp,stage,options): a file that changes only when the options do.
@@ -61,6 +70,9 @@ $(OUT)/.options/$(1): FORCE
 endef
 $(eval $(call stamp,brdf-fit,$(SCENE_FLAGS) $(SEED) $(BRDF_FIT_FLAGS)))
 $(eval $(call stamp,photon-trace,$(SCENE_FLAGS) $(SEED) $(PHOTONS) $(PHOTON_TRACE_FLAGS)))
+$(eval $(call stamp,importons,$(SCENE_FLAGS) $(SEED) $(IMPORTONS)))
+$(eval $(call stamp,passes,$(PASSES)))
+$(eval $(call stamp,passes-chart,$(PASSES_SPP)))
 $(eval $(call stamp,cache-train,$(CACHE_TRAIN_FLAGS)))
 $(eval $(call stamp,cache-reduce,$(CACHE_REDUCE_FLAGS)))
 $(eval $(call stamp,render,$(SCENE_FLAGS) $(SEED) $(SIZE) $(RENDER_FLAGS)))
@@ -72,16 +84,7 @@ $(OUT)/scene.brdf $(OUT)/brdf-fit.json &: $(SCENE) $(SCENE_INPUTS) $(OUT)/.optio
 	$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $(SCENE_FLAGS) -o $(OUT)/scene.brdf --seed $(SEED) \
 	  --stats $(OUT)/brdf-fit.json $(BRDF_FIT_FLAGS) $(QUIET)
 
-$(OUT)/scene.photons $(OUT)/photon-trace.json &: $(SCENE) $(SCENE_INPUTS) \
-    $(OUT)/.options/photon-trace $(BIN)/photon-trace
-	$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $(OUT)/scene.photons \
-	  --count $(PHOTONS) --seed $(SEED) --stats $(OUT)/photon-trace.json \
-	  $(PHOTON_TRACE_FLAGS) $(QUIET)
-
-$(OUT)/scene.cache $(OUT)/cache-train.json &: $(OUT)/scene.photons $(OUT)/.options/cache-train \
-    $(BIN)/cache-train
-	$(LAUNCH) $(BIN)/cache-train --photons $(OUT)/scene.photons -o $(OUT)/scene.cache \
-	  --stats $(OUT)/cache-train.json $(CACHE_TRAIN_FLAGS) $(QUIET)
+include $(ROOT)/passes.mk
 
 $(OUT)/reduced.% $(OUT)/cache-reduce-%.json: $(OUT)/scene.% $(OUT)/.options/cache-reduce \
     $(BIN)/cache-reduce
@@ -93,7 +96,7 @@ caches_bsdf :=
 caches_illumination := $(OUT)/reduced.cache
 caches_product := $(OUT)/reduced.cache $(OUT)/reduced.brdf
 preprocess_bsdf :=
-preprocess_illumination := $(foreach s,photon-trace cache-train cache-reduce-cache,$(OUT)/$(s).json)
+preprocess_illumination := $(foreach s,$(training) cache-reduce-cache,$(OUT)/$(s).json)
 preprocess_product := $(preprocess_illumination) \
   $(foreach s,brdf-fit cache-reduce-brdf,$(OUT)/$(s).json)
 cache_flags = $(patsubst %.brdf,--brdf %.brdf,$(patsubst %.cache,--cache %.cache,$(1)))

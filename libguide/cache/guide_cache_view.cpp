@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "libguide/directional/mixture_check.h"
+#include "libguide/spatial/escape_map.h"
 #include "libguide/spatial/tree_check.h"
 
 namespace waylight {
@@ -28,6 +29,18 @@ std::string check_cell(const CacheCell& cell, std::span<const GaussianComponent>
   return check_mixture(components.subspan(cell.first_component, cell.component_count));
 }
 
+std::string check_escapes(const GuideCacheView& view) {
+  if (view.escape_weights.size() != view.escape_bins.size() * EscapeMap::kCells)
+    return "the escapes do not belong to their bins";
+  for (size_t i = 0; i < view.escape_bins.size(); ++i)
+    if (view.escape_bins[i] >= EscapeMap::kBins ||
+        (i > 0 && view.escape_bins[i] <= view.escape_bins[i - 1]))
+      return "the bins of the escapes are out of range or out of order";
+  for (const float weight : view.escape_weights)
+    if (!finite_and_not_negative({weight})) return "escapes are negative or not finite";
+  return {};
+}
+
 }  // namespace
 
 std::string check(const GuideCacheView& view) {
@@ -38,7 +51,7 @@ std::string check(const GuideCacheView& view) {
   for (size_t i = 0; i < view.cells.size(); ++i)
     if (const std::string fault = check_cell(view.cells[i], view.components); !fault.empty())
       return fmt::format("cell {}: {}", i, fault);
-  return {};
+  return check_escapes(view);
 }
 
 }  // namespace waylight

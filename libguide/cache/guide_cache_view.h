@@ -20,17 +20,24 @@ inline constexpr float kMinNormalCosine = 0.25f;
 
 // Does not own what it views.
 struct GuideCacheView {
+  Quantity quantity = Quantity::radiance;
   Bounds scene_bounds;
   std::span<const CacheNode> nodes;
   std::span<const CacheCell> cells;
   std::span<const GaussianComponent> components;
+  std::span<const uint32_t> escape_bins;
+  std::span<const float> escape_weights;
 
   GuideCacheView() = default;
   GuideCacheView(const Bounds& bounds, std::span<const CacheNode> tree,
                  std::span<const CacheCell> leaves, std::span<const GaussianComponent> mixtures)
       : scene_bounds(bounds), nodes(tree), cells(leaves), components(mixtures) {}
   explicit GuideCacheView(const GuideCache& cache)
-      : GuideCacheView(cache.scene_bounds, cache.nodes, cache.cells, cache.components) {}
+      : GuideCacheView(cache.scene_bounds, cache.nodes, cache.cells, cache.components) {
+    quantity = cache.quantity;
+    escape_bins = cache.escape_bins;
+    escape_weights = cache.escape_weights;
+  }
   explicit GuideCacheView(GuideCache&&) = delete;  // it would dangle
 
   // The cell that guides at a point of a surface; nullptr where the cache knows too little: sample

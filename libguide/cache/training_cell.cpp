@@ -59,7 +59,7 @@ size_t cap_weights(std::span<WeightedPoint> batch, float cap) {
 TrainingCell::TrainingCell(const CacheCell& cell, const CellTraining& training,
                            std::span<const GaussianComponent> components,
                            std::span<const ComponentStatistics> statistics)
-    : cell_(cell), training_(training) {
+    : cell_(cell), training_(training), carried_over_(cell.photon_count > 0) {
   set_mixture(components, statistics);
 }
 
@@ -120,6 +120,7 @@ size_t TrainingCell::update(const CellTrainingOptions& options) {
     step(batch, effective_samples, options);
   else
     begin(batch, effective_samples, options);
+  if (carried_over_) carry_evidence_over(sum, batch.size());
   cell_.photon_count += static_cast<float>(batch.size());
   training_.weight_sum += sum;
   training_.weight_sum2 += sum2;
@@ -132,9 +133,21 @@ size_t TrainingCell::update(const CellTrainingOptions& options) {
 // against the mean of the batch. Light that fewer than one photon in 32 carries is underestimated
 // by it, never lost; without it one firefly owns a first batch.
 float TrainingCell::weight_cap(std::span<const WeightedPoint> batch) const {
-  if (cell_.photon_count == 0) return scan_weights(batch, kMaxTrainingWeight).cap;
+  if (cell_.photon_count == 0 || carried_over_) return scan_weights(batch, kMaxTrainingWeight).cap;
   const double mean = training_.weight_sum / cell_.photon_count;
   return static_cast<float>(kMaxTrainingWeight * mean);
+}
+
+// Guided photons are many and weigh little each, others are few and heavy: in absolute weights a
+// few of these would outweigh all evidence to come. EM weighs photons within their batch alone, so
+// the evidence of an earlier stream goes on in weights whose mean is that of this one.
+void TrainingCell::carry_evidence_over(double sum, size_t photons) {
+  carried_over_ = false;
+  if (!(training_.weight_sum > 0)) return;
+  const double scale =
+      sum / static_cast<double>(photons) * cell_.photon_count / training_.weight_sum;
+  training_.weight_sum *= scale;
+  training_.weight_sum2 *= scale * scale;
 }
 
 void TrainingCell::weigh_evidence() {
@@ -221,6 +234,7 @@ TrainingCell TrainingCell::child(const CellSplit& split, double now, double min_
   child.cell_.component_count = static_cast<uint32_t>(
       grow_mixture(child.components_, child.statistics_, cell_.component_count,
                    components_for(training_.samples, options)));
+  child.carried_over_ = carried_over_;
   child.pending_ = pending_;
   child.pending_count_ = pending_count_;
   return child;

@@ -50,6 +50,9 @@ class TrainingCell {
   // Photons on less than min_area count as spread over it.
   float irradiance(double now, double min_area) const;
 
+  // Sets when the cell was made, in photons of the whole training.
+  void restate_birth(double born) { training_.born = born; }
+
   const CacheCell& cell() const { return cell_; }
   const CellTraining& training() const { return training_; }
   std::span<const GaussianComponent> components() const {
@@ -74,6 +77,7 @@ class TrainingCell {
   void turn_to_photons();
   void inherit_irradiance(CellTraining& child, double now, double min_area) const;
   void weigh_evidence();
+  void carry_evidence_over(double sum, size_t photons);
   std::span<WeightedPoint> batch_on_disk(Batch& batch) const;
   void begin(std::span<const WeightedPoint> batch, float effective_samples,
              const CellTrainingOptions& options);
@@ -88,6 +92,7 @@ class TrainingCell {
   std::array<ComponentStatistics, GaussianMixture::kMaxComponents> statistics_;
   std::array<Pending, kBatchSize> pending_;
   int pending_count_ = 0;
+  bool carried_over_ = false;  // the evidence is in weights of an earlier stream
 };
 
 }  // namespace waylight

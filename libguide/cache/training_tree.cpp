@@ -11,6 +11,13 @@ namespace waylight {
 
 static_assert(kMaxTreeDepth < 256);
 
+double TrainingClock::exposure(double born) const {
+  const double stream = photons - photons_before;
+  const double before = photons_before > 0 ? std::max(0.0, 1 - born / photons_before) : 1;
+  const double during = stream > 0 ? (photons - std::max(born, photons_before)) / stream : 1;
+  return before * particles_before + during * (particles - particles_before);
+}
+
 TrainingTree::TrainingTree() : nodes_{{0, 0, kLeafAxis}}, cells_(1), node_of_cell_{0}, depth_{0} {}
 
 TrainingTree::TrainingTree(const GuideCache& previous)
@@ -59,6 +66,14 @@ void TrainingTree::split(uint32_t cell, const CellSplit& split, const TreeOption
   node_of_cell_.push_back(child + 1);
   depth_[cell] += 1;
   depth_.push_back(depth_[cell]);
+}
+
+void TrainingTree::restate_exposure(const TrainingClock& clock) {
+  if (clock.particles_before <= 0) return;
+  for (TrainingCell& cell : cells_) {
+    const double share = clock.exposure(cell.training().born) / clock.particles;
+    cell.restate_birth(clock.photons * std::clamp(1 - share, 0.0, 1.0));
+  }
 }
 
 void TrainingTree::store(GuideCache& cache, const TreeOptions& tree,

@@ -15,6 +15,15 @@ struct TreeOptions {
   float min_extent = 0;  // standard deviation below which positions are one place
 };
 
+// Photons and particles of the training so far, and of those what came before the current stream.
+struct TrainingClock {
+  double photons = 0, particles = 0;
+  double photons_before = 0, particles_before = 0;
+
+  // Particles since a cell was made, `born` in photons: streams differ in photons per particle.
+  double exposure(double born) const;
+};
+
 class TrainingTree {
  public:
   TrainingTree();  // one cell
@@ -30,6 +39,10 @@ class TrainingTree {
   // Splits the cells that saw more than their photons, in index order: the result does not depend
   // on threads. now: photons of the whole training so far.
   void split_full_cells(const TreeOptions& tree, const CellTrainingOptions& options, double now);
+
+  // Restates when cells were made so that the photons since then stand for their particles at the
+  // mean rate of the whole training; for a first stream they do.
+  void restate_exposure(const TrainingClock& clock);
 
   // irradiance_scale: photons per emitted particle, 1/J to W of TrainingCell::irradiance.
   void store(GuideCache& cache, const TreeOptions& tree, double irradiance_scale) const;

@@ -20,8 +20,8 @@ float mean_cosine(std::span<const GaussianComponent> lobes) {
 
 DirectionSampler::DirectionSampler(const Scene& scene, const GuidingCaches& caches,
                                    DirectionGuide guide, float guiding_prob, const SurfacePoint& at,
-                                   const Vec3& wo)
-    : resolved_(scene.bsdf(at, wo, TransportMode::radiance)),
+                                   const Vec3& wo, TransportMode mode)
+    : resolved_(scene.bsdf(at, wo, mode)),
       ng_(at.ng),
       wo_local_(resolved_.frame.to_local(wo)),
       ng_side_(resolved_.frame.n.dot(at.ng) >= 0 ? 1.0f : -1.0f),

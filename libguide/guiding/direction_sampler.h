@@ -29,7 +29,8 @@ struct DirectionSample {
 class DirectionSampler {
  public:
   DirectionSampler(const Scene& scene, const GuidingCaches& caches, DirectionGuide guide,
-                   float guiding_prob, const SurfacePoint& at, const Vec3& wo);
+                   float guiding_prob, const SurfacePoint& at, const Vec3& wo,
+                   TransportMode mode = TransportMode::radiance);
   DirectionSampler(const DirectionSampler&) = delete;
   DirectionSampler& operator=(const DirectionSampler&) = delete;
 

@@ -6,12 +6,14 @@
 
 #include "libguide/math/types.h"
 #include "libguide/records/gaussian.h"
+#include "libguide/records/quantity.h"
 #include "libguide/spatial/orientation_tree.h"
 
 namespace waylight {
 
 struct CacheCell {
-  Vec3 normal = Vec3::UnitZ();  // of the cell's frame: Frame(normal); the mixture's plane is its disk
+  Vec3 normal =
+      Vec3::UnitZ();       // of the cell's frame: Frame(normal); the mixture's plane is its disk
   float irradiance = 0;    // W/m^2, luminance, estimated from the photon power per surface area
   float photon_count = 0;  // photons that the mixture saw, half of its parent's included
   float effective_samples = 0;  // (sum w)^2 / sum w^2 of their weights
@@ -41,13 +43,16 @@ struct CellTraining {
   double flux = 0;
   double born = 0;
   float inherited_area = 0;  // share of the parent's area, until the cell's own is known
-  float step = 0;                  // stepwise-EM updates made so far; 0 is no mixture yet
-  float samples = 0;               // effective number of photons that the EM statistics stand for
+  float step = 0;            // stepwise-EM updates made so far; 0 is no mixture yet
+  float samples = 0;         // effective number of photons that the EM statistics stand for
   // Sums over the photons that the mixture saw, half of the parent's included.
   double weight_sum = 0, weight_sum2 = 0;
 };
 
+// Where "light" and "photons" are said of a cache, importance and importons are meant where it
+// holds importance: its irradiance is then int W cos, 1/m^2.
 struct GuideCache {
+  Quantity quantity = Quantity::radiance;
   Bounds scene_bounds;
   uint64_t emitted = 0;  // particles behind the whole training
   uint32_t passes = 0;   // photon streams consumed
@@ -57,6 +62,10 @@ struct GuideCache {
   std::vector<GaussianComponent> components;
   std::vector<ComponentStatistics> statistics;  // parallel to components, or empty
   std::vector<CellTraining> training;           // parallel to cells, or empty
+  // Importance that leaves the scene, as EscapeMap has it: the bins of direction that anything went
+  // to, in increasing order, and the luminance of the importons in each position cell of each.
+  std::vector<uint32_t> escape_bins;
+  std::vector<float> escape_weights;  // EscapeMap::kCells for each bin
 };
 
 }  // namespace waylight

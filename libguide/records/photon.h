@@ -4,16 +4,28 @@
 #include <vector>
 
 #include "libguide/math/types.h"
+#include "libguide/records/quantity.h"
 
 namespace waylight {
 
-// A light particle at the moment it hits a surface that is not purely specular.
+// A particle at the moment it hits a surface that is not purely specular; an importon also where it
+// hits an emitter.
 struct Photon {
   Vec3 position;
   Vec3 direction;  // unit, away from the surface: where the light comes from (wi)
   Vec3 normal;     // unit shading normal on the side the photon arrives from
-  Color power;     // W; the sum over all photons on an area estimates its flux
+  // Photons: W; the sum over all of an area estimates its flux. Importons: no unit; the sum of
+  // power times emitted radiance over all that hit emitters estimates the mean of the image.
+  Color power;
   uint32_t path_depth = 0;  // scattering events since emission; 0 is direct light
+};
+
+// An importon that left the scene towards distant emitters.
+struct Escape {
+  Vec3 origin;     // a point of the ray, where it left the last surface
+  Vec3 direction;  // unit, the way it went: to the light
+  Color power;     // as of importons
+  uint32_t path_depth = 0;
 };
 
 // How many particles and photons, and how the particles ended.
@@ -21,6 +33,7 @@ struct PhotonCounts {
   uint64_t emitted = 0, stored = 0;
   uint64_t left_scene = 0, absorbed = 0, too_deep = 0;
   uint64_t invalid = 0;  // photons dropped for a NaN or infinite power or place
+  uint64_t escapes = 0;  // stored beside the photons
 
   PhotonCounts& operator+=(const PhotonCounts& other) {
     emitted += other.emitted;
@@ -29,8 +42,16 @@ struct PhotonCounts {
     absorbed += other.absorbed;
     too_deep += other.too_deep;
     invalid += other.invalid;
+    escapes += other.escapes;
     return *this;
   }
+};
+
+// What particles left behind.
+struct PhotonRecords {
+  std::vector<Photon> photons;
+  std::vector<Escape> escapes;
+  PhotonCounts counts;
 };
 
 // What a stream of photons says of itself, before the first photon.
@@ -38,6 +59,7 @@ struct PhotonStreamInfo {
   Bounds scene_bounds;
   uint64_t emitted = 0;  // particles emitted for the whole stream; powers are divided by it already
   uint32_t pass = 0;
+  Quantity quantity = Quantity::radiance;
 };
 
 }  // namespace waylight

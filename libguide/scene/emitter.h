@@ -9,6 +9,7 @@
 // The choice among emitters is LightSet's.
 
 #include "libguide/scene/scene.h"
+#include "libguide/spatial/escape_map.h"
 
 namespace waylight {
 
@@ -19,7 +20,7 @@ struct SceneSphere {
 
   SceneSphere() = default;
   explicit SceneSphere(const Bounds& bounds) {
-    if (!bounds.empty()) center = bounds.center(), radius = bounds.radius() * 1.0001f;
+    if (!bounds.empty()) center = bounds.center(), radius = bounds.radius() * kSceneMargin;
   }
   float cross_section() const { return kPi * radius * radius; }
 };

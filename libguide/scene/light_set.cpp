@@ -80,6 +80,16 @@ LightSet::LightSet(const SceneDescription& scene, const SceneSphere& sphere) {
   chosen_ = defensive(powers, by_power_.total());
 }
 
+bool LightSet::has_distant() const {
+  for (int i = 0; i < static_cast<int>(emitters_.size()); ++i) {
+    const bool distant = std::visit(
+        []<typename T>(const T&) { return Distant<T> || std::is_same_v<T, DirectionalEmitter>; },
+        emitters_[i]);
+    if (distant && emission_prob(i) > 0) return true;
+  }
+  return false;
+}
+
 Color LightSet::environment(const Vec3& direction) const {
   Color sum = Color::Zero();
   for (const int i : distant_)
@@ -133,12 +143,16 @@ std::optional<EmissionSample> LightSet::emit(float u, const Vec2& u_position,
                                              const Vec2& u_direction) const {
   if (by_power_.empty()) return std::nullopt;
   const Discrete::Sample chosen = by_power_.sample(u);
+  std::optional<EmissionSample> result = emit(chosen.index, chosen.u, u_position, u_direction);
+  if (result) result->power /= chosen.prob;
+  return result;
+}
+
+std::optional<EmissionSample> LightSet::emit(int emitter, float u, const Vec2& u_position,
+                                             const Vec2& u_direction) const {
   std::optional<EmissionSample> result = std::visit(
-      [&](const auto& emitter) { return emitter.emit(chosen.u, u_position, u_direction); },
-      emitters_[chosen.index]);
-  if (!result) return result;
-  result->power /= chosen.prob;
-  result->emitter = chosen.index;
+      [&](const auto& e) { return e.emit(u, u_position, u_direction); }, emitters_[emitter]);
+  if (result) result->emitter = emitter;
   return result;
 }
 

@@ -23,12 +23,19 @@ class LightSet {
   LightSet(const SceneDescription& scene, const SceneSphere& sphere);
 
   bool empty() const { return chosen_.empty(); }
+  bool has_distant() const;  // with power, directional ones included
   Color environment(const Vec3& direction) const;
   float environment_pdf(const Vec3& direction) const;
   std::optional<LightSample> sample(const Vec3& from, float u, const Vec2& u2) const;
   float pdf(const Vec3& from, const SurfacePoint& on_light, const Vec3& wi) const;
   std::optional<EmissionSample> emit(float u, const Vec2& u_position,
                                      const Vec2& u_direction) const;
+  // As if the emitter were the only one.
+  std::optional<EmissionSample> emit(int emitter, float u, const Vec2& u_position,
+                                     const Vec2& u_direction) const;
+  float emission_prob(int emitter) const {
+    return by_power_.empty() ? 0.0f : by_power_.prob(emitter);
+  }
 
  private:
   std::vector<Emitter> emitters_;

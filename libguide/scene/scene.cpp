@@ -162,6 +162,15 @@ std::optional<EmissionSample> Scene::sample_emission(float u, const Vec2& u_posi
   return impl_->lights.emit(u, u_position, u_direction);
 }
 
+std::optional<EmissionSample> Scene::emit(int emitter, float u, const Vec2& u_position,
+                                          const Vec2& u_direction) const {
+  return impl_->lights.emit(emitter, u, u_position, u_direction);
+}
+
+float Scene::emission_prob(int emitter) const { return impl_->lights.emission_prob(emitter); }
+
 bool Scene::has_lights() const { return !impl_->lights.empty(); }
+
+bool Scene::has_distant_light() const { return impl_->lights.has_distant(); }
 
 }  // namespace waylight

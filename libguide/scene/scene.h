@@ -89,7 +89,13 @@ class Scene {
   // over the cross section of the sphere around the scene.
   std::optional<EmissionSample> sample_emission(float u, const Vec2& u_position,
                                                 const Vec2& u_direction) const;
-  bool has_lights() const;  // some emitter has power
+  // The same of one emitter, as if it were the only one, and the probability with which
+  // sample_emission() chooses it.
+  std::optional<EmissionSample> emit(int emitter, float u, const Vec2& u_position,
+                                     const Vec2& u_direction) const;
+  float emission_prob(int emitter) const;
+  bool has_lights() const;         // some emitter has power
+  bool has_distant_light() const;  // and some that has is not within the scene's bounds
 
  private:
   struct Impl;  // Embree's handles and the emitters' tables

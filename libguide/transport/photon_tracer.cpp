@@ -7,48 +7,98 @@ constexpr int kMaxCrossings = 1000;  // transparent surfaces in a row before a p
 
 constexpr float kMaxCorrection = 10;
 
-std::optional<BsdfSample> sample_bsdf(const Bsdf& bsdf, const Vec3& wo, Sampler& sampler) {
-  const float delta_prob = bsdf.delta_prob(wo), u = sampler.next(), u_lobe = sampler.next();
-  const Vec2 u2 = sampler.next_2d();
-  const bool delta = u < delta_prob;
-  std::optional<BsdfSample> s = delta ? bsdf.sample_delta(wo, u_lobe) : bsdf.sample(wo, u_lobe, u2);
-  if (s) s->weight /= delta ? delta_prob : 1 - delta_prob;
-  return s;
+constexpr float kGuidingProb = 0.5f;  // share of scattering by importance, where it is known
+
+// A photon goes on for certain while it promises at least a third of what the average photon does:
+// the lower end of the weight window of [Vorba, Krivanek 2016] with s = 5.
+constexpr float kWindow = 3;
+constexpr float kMinSurvival = 0.05f;
+
+// The adjoint BSDF: f |cos ns(out)| becomes f |cos ng(out)| |cos ns(in)| / |cos ng(in)| where
+// shading and geometric normals differ [Veach 1997, 5.3]. Zero where the two disagree about a side.
+// Capped: photons only train caches, and one photon at a grazing angle must not capture a cell.
+float adjoint_correction(const Frame& shading, const Vec3& ng, const Vec3& in, const Vec3& out) {
+  const float flipped = shading.n.dot(ng) >= 0 ? 1.0f : -1.0f;
+  const float ng_in = in.dot(ng) * flipped, ng_out = out.dot(ng) * flipped;
+  const float ns_in = in.dot(shading.n), ns_out = out.dot(shading.n);
+  if (ng_in * ns_in <= 0 || ng_out * ns_out <= 0) return 0;
+  return std::min(std::abs(ng_out * ns_in / (ng_in * ns_out)), kMaxCorrection);
+}
+
+std::optional<EmissionSample> plain_emission(const Scene& scene, Sampler& sampler) {
+  const float u = sampler.next();
+  const Vec2 u_position = sampler.next_2d();
+  return scene.sample_emission(u, u_position, sampler.next_2d());
 }
 
 }  // namespace
 
-void PhotonTracer::trace(Sampler& sampler, std::vector<Photon>* photons,
-                         PhotonCounts* counts) const {
-  ++counts->emitted;
-  const float u = sampler.next();
-  const Vec2 u_position = sampler.next_2d();
-  const std::optional<EmissionSample> emission =
-      scene_.sample_emission(u, u_position, sampler.next_2d());
-  if (!emission || is_black(emission->power)) {
-    ++counts->absorbed;
+PhotonTracer::PhotonTracer(const Scene& scene, const PhotonTracerOptions& options,
+                           const GuideCacheView& importance)
+    : scene_(scene), options_(options), guide_(nullptr, importance, scene.description().materials) {
+  if (guide_.guided() && options_.quantity == Quantity::radiance) {
+    emission_.emplace(scene, importance);
+    expected_contribution_ = static_cast<float>(emission_->expected_image()) * options.power_scale;
+    plain_power_ = static_cast<float>(emission_->emitted_power()) * options.power_scale;
+  }
+  if (options_.quantity == Quantity::radiance) return;
+  camera_.emplace(scene.description().sensor);
+  stores_escapes_ = scene.has_distant_light();
+}
+
+void PhotonTracer::trace(Sampler& sampler, PhotonRecords* records) const {
+  PhotonCounts& counts = records->counts;
+  ++counts.emitted;
+  std::optional<Particle> particle = start(sampler);
+  if (!particle) {
+    ++counts.absorbed;
     return;
   }
-  Particle particle{emission->ray, emission->power * power_scale_};
+  const TransportMode mode =
+      options_.quantity == Quantity::radiance ? TransportMode::importance : TransportMode::radiance;
+  const DirectionGuide guide = emission_ ? DirectionGuide::illumination : DirectionGuide::none;
   for (;;) {
-    const std::optional<SurfacePoint> at = next_surface(particle, sampler);
+    const std::optional<SurfacePoint> at = next_surface(*particle, sampler);
     if (!at) {
-      ++counts->left_scene;
+      store_escape(*particle, records);
       return;
     }
-    const ResolvedBsdf resolved =
-        scene_.bsdf(*at, -particle.ray.direction, TransportMode::importance);
-    if (resolved.bsdf.has_smooth() && !is_black(resolved.bsdf.mean_reflectance()))
-      store(particle, *at, photons, counts);
-    if (static_cast<int>(particle.depth) + 1 >= max_depth_) {
-      ++counts->too_deep;
+    const DirectionSampler directions(scene_, guide_, guide, kGuidingProb, *at,
+                                      -particle->ray.direction, mode);
+    if (stores(*particle, *at, directions.resolved().bsdf)) store(*particle, *at, records);
+    if (static_cast<int>(particle->depth) + 1 >= options_.max_depth) {
+      ++counts.too_deep;
       return;
     }
-    if (!scatter(particle, *at, resolved, sampler)) {
-      ++counts->absorbed;
+    const float importance = expected_contribution_ > 0 ? directions.reflected_estimate() : 0;
+    if (!survives_guided(*particle, importance, sampler) ||
+        !scatter(*particle, *at, directions, importance > 0, sampler)) {
+      ++counts.absorbed;
       return;
     }
   }
+}
+
+std::optional<PhotonTracer::Particle> PhotonTracer::start(Sampler& sampler) const {
+  return camera_ ? leave_camera(sampler) : leave_emitter(sampler);
+}
+
+std::optional<PhotonTracer::Particle> PhotonTracer::leave_emitter(Sampler& sampler) const {
+  const std::optional<EmissionSample> emission =
+      emission_ ? emission_->sample(sampler) : plain_emission(scene_, sampler);
+  if (!emission || is_black(emission->power)) return std::nullopt;
+  return Particle{emission->ray, emission->power * options_.power_scale};
+}
+
+// Uniform over the film, or over its crop window: each pixel is a mean over its own area, and the
+// mean of the image one over them all.
+PhotonTracer::Particle PhotonTracer::leave_camera(Sampler& sampler) const {
+  const FilmDescription& film = scene_.description().sensor.film;
+  const Vec2 u = sampler.next_2d();
+  Vec2 pixel(u.x() * film.width, u.y() * film.height);
+  if (film.crop_width > 0 && film.crop_height > 0)
+    pixel = {film.crop_x + u.x() * film.crop_width, film.crop_y + u.y() * film.crop_height};
+  return {camera_->ray(pixel, sampler.next_2d()), Color::Constant(options_.power_scale)};
 }
 
 std::optional<SurfacePoint> PhotonTracer::next_surface(Particle& particle, Sampler& sampler) const {
@@ -62,40 +112,69 @@ std::optional<SurfacePoint> PhotonTracer::next_surface(Particle& particle, Sampl
   return std::nullopt;
 }
 
+bool PhotonTracer::stores(const Particle& particle, const SurfacePoint& at,
+                          const Bsdf& bsdf) const {
+  const bool emits = at.emitter != kNone && at.ng.dot(particle.ray.direction) < 0;
+  return (bsdf.has_smooth() && !is_black(bsdf.mean_reflectance())) || (camera_ && emits);
+}
+
 void PhotonTracer::store(const Particle& particle, const SurfacePoint& at,
-                         std::vector<Photon>* photons, PhotonCounts* counts) const {
+                         PhotonRecords* records) const {
   if (!is_finite(particle.power) || !at.p.allFinite()) {
-    ++counts->invalid;
+    ++records->counts.invalid;
     return;
   }
   const Vec3 wi = -particle.ray.direction;
   const Vec3 normal = at.ns.dot(wi) < 0 ? Vec3(-at.ns) : at.ns;
-  photons->push_back({at.p, wi, normal, particle.power, particle.depth});
-  ++counts->stored;
+  records->photons.push_back({at.p, wi, normal, particle.power, particle.depth});
+  ++records->counts.stored;
 }
 
-// Scatters with the adjoint BSDF: f |cos ns(out)| becomes f |cos ng(out)| |cos ns(in)| / |cos
-// ng(in)| where shading and geometric normals differ [Veach 1997, 5.3]. Roulette keeps the power of
-// the survivors, so photons of one emitter stay about equal. The correction is capped: photons only
-// train caches, and one photon at a grazing angle must not capture a cell.
-bool PhotonTracer::scatter(Particle& particle, const SurfacePoint& at, const ResolvedBsdf& resolved,
+void PhotonTracer::store_escape(const Particle& particle, PhotonRecords* records) const {
+  ++records->counts.left_scene;
+  if (!stores_escapes_) return;
+  if (!is_finite(particle.power) || !particle.ray.origin.allFinite()) {
+    ++records->counts.invalid;
+    return;
+  }
+  records->escapes.push_back(
+      {particle.ray.origin, particle.ray.direction, particle.power, particle.depth});
+  ++records->counts.escapes;
+}
+
+// Guided photons are many where they matter and of little power each. Roulette may raise the power
+// of one that matters less up to what it would be without guiding, and not further, whatever the
+// cache says; so no photon of a cell outweighs the others by more than the chances of its path did.
+bool PhotonTracer::survives_guided(Particle& particle, float importance, Sampler& sampler) const {
+  if (!(importance > 0)) return true;
+  const float power = luminance(particle.power);
+  const float promised = power * importance / expected_contribution_;
+  const float prob = std::max({kWindow * promised, power / plain_power_, kMinSurvival});
+  if (prob >= 1) return true;
+  if (sampler.next() >= prob) return false;
+  particle.power /= prob;
+  return true;
+}
+
+// Roulette keeps the power of the survivors, so particles of one start stay about equal; what
+// refraction makes of radiance does not count.
+bool PhotonTracer::scatter(Particle& particle, const SurfacePoint& at,
+                           const DirectionSampler& directions, bool by_importance,
                            Sampler& sampler) const {
-  const Vec3 in = -particle.ray.direction;
-  const Vec3 in_local = resolved.frame.to_local(in);
-  const std::optional<BsdfSample> s = sample_bsdf(resolved.bsdf, in_local, sampler);
+  const float u = sampler.next(), u_lobe = sampler.next();
+  const std::optional<DirectionSample> s = directions.sample(u, u_lobe, sampler.next_2d());
   if (!s) return false;
-  const Vec3 out = resolved.frame.to_world(s->wi);
-  const float flipped = resolved.frame.n.dot(at.ng) >= 0 ? 1.0f : -1.0f;
-  const float ng_in = in.dot(at.ng) * flipped, ng_out = out.dot(at.ng) * flipped;
-  if (ng_in * in_local.z() <= 0 || ng_out * s->wi.z() <= 0) return false;
-  const float correction = ng_out * in_local.z() / (ng_in * s->wi.z());
-  const Color power = particle.power * s->weight * std::min(std::abs(correction), kMaxCorrection);
-  const float survival_prob = std::min(1.0f, luminance(power) / luminance(particle.power));
+  const float correction = camera_ ? 1.0f
+                                   : adjoint_correction(directions.resolved().frame, at.ng,
+                                                        -particle.ray.direction, s->wi);
+  const Color power = particle.power * s->weight * correction;
+  const float scale = camera_ ? sqr(s->eta) : 1.0f;
+  const float survival_prob = std::min(1.0f, scale * luminance(power) / luminance(particle.power));
   ++particle.depth;
   particle.power = power;
-  particle.ray = scene_.spawn_ray(at, out);
+  particle.ray = scene_.spawn_ray(at, s->wi);
   if (!(survival_prob > 0)) return false;
-  if (static_cast<int>(particle.depth) <= rr_depth_) return true;
+  if (by_importance || static_cast<int>(particle.depth) <= options_.rr_depth) return true;
   if (sampler.next() >= survival_prob) return false;
   particle.power /= survival_prob;
   return true;

@@ -1,22 +1,34 @@
 #pragma once
-// One light particle from its emission to its end.
+// One particle from its start to its end: a photon from an emitter, or an importon from the camera.
 
-#include <vector>
+#include <optional>
 
 #include "libguide/base/sampler.h"
+#include "libguide/guiding/direction_sampler.h"
+#include "libguide/guiding/emission_guide.h"
 #include "libguide/records/photon.h"
+#include "libguide/scene/camera.h"
 #include "libguide/scene/scene.h"
 
 namespace waylight {
 
+struct PhotonTracerOptions {
+  Quantity quantity = Quantity::radiance;
+  int max_depth = 64, rr_depth = 4;
+  float power_scale = 1;  // one over the number of particles of the stream
+};
+
+// With an importance cache, photons are guided by it where they leave emitters (EmissionGuide) and
+// in the directions they scatter to (one-sample MIS with the BSDF), and roulette goes by what they
+// are expected to bring to the image.
 class PhotonTracer {
  public:
-  // power_scale: one over the number of particles of the stream.
-  PhotonTracer(const Scene& scene, int max_depth, int rr_depth, float power_scale)
-      : scene_(scene), max_depth_(max_depth), rr_depth_(rr_depth), power_scale_(power_scale) {}
+  // importance: empty, or of this scene; importons have none. It must outlive this.
+  PhotonTracer(const Scene& scene, const PhotonTracerOptions& options,
+               const GuideCacheView& importance = {});
 
   // Appends the photons of one particle; powers are divided by the number of particles.
-  void trace(Sampler& sampler, std::vector<Photon>* photons, PhotonCounts* counts) const;
+  void trace(Sampler& sampler, PhotonRecords* records) const;
 
  private:
   struct Particle {
@@ -24,15 +36,25 @@ class PhotonTracer {
     Color power;
     uint32_t depth = 0;
   };
+  std::optional<Particle> start(Sampler& sampler) const;
+  std::optional<Particle> leave_emitter(Sampler& sampler) const;
+  Particle leave_camera(Sampler& sampler) const;
   std::optional<SurfacePoint> next_surface(Particle& particle, Sampler& sampler) const;
-  void store(const Particle& particle, const SurfacePoint& at, std::vector<Photon>* photons,
-             PhotonCounts* counts) const;
-  bool scatter(Particle& particle, const SurfacePoint& at, const ResolvedBsdf& resolved,
-               Sampler& sampler) const;
+  bool stores(const Particle& particle, const SurfacePoint& at, const Bsdf& bsdf) const;
+  void store(const Particle& particle, const SurfacePoint& at, PhotonRecords* records) const;
+  void store_escape(const Particle& particle, PhotonRecords* records) const;
+  bool survives_guided(Particle& particle, float importance, Sampler& sampler) const;
+  bool scatter(Particle& particle, const SurfacePoint& at, const DirectionSampler& directions,
+               bool by_importance, Sampler& sampler) const;
 
   const Scene& scene_;
-  int max_depth_, rr_depth_;
-  float power_scale_;
+  PhotonTracerOptions options_;
+  std::optional<Camera> camera_;  // of importons
+  bool stores_escapes_ = false;
+  GuidingCaches guide_;
+  std::optional<EmissionGuide> emission_;
+  float expected_contribution_ = 0;  // of one photon to the mean of the image, luminance
+  float plain_power_ = 0;            // luminance of a photon that is not guided
 };
 
 }  // namespace waylight

@@ -69,9 +69,35 @@ inline SceneDescription gap_box(int width = 24, int height = 16) {
   add_shape(scene, rectangle(corner, x, y), white);
   add_shape(scene, rectangle(corner + z, y, x), white);
   add_shape(scene, rectangle({-1, -1, 0.5f}, {1.5f, 0, 0}, y), white);  // gap for x > 0.5
-  const uint32_t lamp = add_shape(
-      scene, rectangle({-0.6f, -0.3f, 0.8f}, {0.6f, 0, 0}, {0, 0.6f, 0}), white);
+  const uint32_t lamp =
+      add_shape(scene, rectangle({-0.6f, -0.3f, 0.8f}, {0.6f, 0, 0}, {0, 0.6f, 0}), white);
   make_light(scene, lamp, Color(40, 35, 30));
+  look_along_z(scene, {0, 0, -0.95f}, width, height);
+  scene.integrator.max_depth = 10;
+  return scene;
+}
+
+// A room [-1, 1]^3 with a window of half a unit in its wall at x = 1, seen from the wall z = -1.
+// The environment is uniform but for a sun of 10 degrees, which shines through the window at 45.
+inline SceneDescription window_box(int width = 24, int height = 16) {
+  SceneDescription scene;
+  const int white =
+      add_two_sided(scene, "white", DiffuseMaterial{Texture(Color(0.7f, 0.6f, 0.5f))});
+  const Vec3 x(2, 0, 0), y(0, 2, 0), z(0, 0, 2);
+  const Vec3 corner(-1, -1, -1);
+  add_shape(scene, rectangle(corner, z, x), white);
+  add_shape(scene, rectangle(corner + y, x, z), white);
+  add_shape(scene, rectangle(corner, y, z), white);
+  add_shape(scene, rectangle(corner, x, y), white);
+  add_shape(scene, rectangle(corner + z, y, x), white);
+  // The wall with the window 0 < y < 0.5, 0 < z < 0.5: below, above, before and behind it.
+  add_shape(scene, rectangle({1, -1, -1}, {0, 0, 2}, {0, 1, 0}), white);
+  add_shape(scene, rectangle({1, 0.5f, -1}, {0, 0, 2}, {0, 0.5f, 0}), white);
+  add_shape(scene, rectangle({1, 0, -1}, {0, 0, 1}, {0, 0.5f, 0}), white);
+  add_shape(scene, rectangle({1, 0, 0.5f}, {0, 0, 0.5f}, {0, 0.5f, 0}), white);
+  scene.emitters.push_back(ConstantEnvironment{Color(0.5f, 0.7f, 1)});
+  scene.emitters.push_back(
+      DistantDisk{Vec3(1, 1, 0).normalized(), std::cos(5 * kPi / 180), Color(60, 50, 40)});
   look_along_z(scene, {0, 0, -0.95f}, width, height);
   scene.integrator.max_depth = 10;
   return scene;

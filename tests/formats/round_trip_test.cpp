@@ -4,6 +4,8 @@
 
 #include "formats/small_caches.h"
 #include "formats/temporary_files.h"
+#include "libguide/base/error.h"
+#include "libguide/spatial/escape_map.h"
 
 namespace waylight {
 namespace {
@@ -204,6 +206,64 @@ TEST_F(RoundTrip, UnfinishedStreamLeavesNoFile) {
     writer.write(random_photons(20'000));
   }
   EXPECT_EQ(file_count(), 0u);
+}
+
+TEST_F(RoundTrip, ImportonsAndThoseThatLeftTheScene) {
+  PhotonHeader header = small_header();
+  header.stream.quantity = Quantity::importance;
+  const std::vector<Photon> photons = random_photons(20'000);
+  std::vector<Escape> escapes;
+  for (const Photon& p : random_photons(17'000, 2))
+    escapes.push_back({p.position, p.direction, p.power, p.path_depth});
+  PhotonWriter writer(path("a.importons"), header);
+  writer.write(photons);
+  writer.write(escapes);
+  writer.finish({5'000'000'000, 20'000, 0, 0, 0, 0, 17'000});
+
+  PhotonReader reader(path("a.importons"));
+  EXPECT_EQ(reader.header().stream.quantity, Quantity::importance);
+  std::vector<Escape> in, chunk;
+  size_t photons_in = 0;
+  for (std::vector<Photon> some; reader.read(&some, &chunk); photons_in += some.size())
+    in.insert(in.end(), chunk.begin(), chunk.end());
+  EXPECT_EQ(photons_in, photons.size());
+  EXPECT_EQ(reader.counts().escapes, 17'000u);
+  ASSERT_EQ(in.size(), escapes.size());
+  for (size_t i = 0; i < in.size(); ++i) {
+    ASSERT_EQ(in[i].origin, escapes[i].origin);
+    ASSERT_TRUE((in[i].power == escapes[i].power).all());
+    ASSERT_EQ(in[i].path_depth, escapes[i].path_depth);
+    ASSERT_LT((in[i].direction - escapes[i].direction).norm(), 6.5e-5f);
+  }
+  EXPECT_EQ(read_photons(path("a.importons")).size(), photons.size()) << "who wants no escapes";
+}
+
+TEST_F(RoundTrip, StreamOfRadianceHasNoEscapes) {
+  PhotonWriter writer(path("a.photons"), small_header());
+  const std::vector<Escape> escapes(1, {Vec3::Zero(), Vec3::UnitX(), Color::Ones()});
+  EXPECT_THROW(writer.write(escapes), Error);
+}
+
+TEST_F(RoundTrip, CacheOfImportance) {
+  CacheFile out = small_cache();
+  out.cache.quantity = Quantity::importance;
+  out.cache.escape_bins = {3, 77};
+  out.cache.escape_weights.assign(2 * EscapeMap::kCells, 0.25f);
+  write_cache(path("a.cache"), out);
+  const CacheFile in = read_cache(path("a.cache"));
+  EXPECT_EQ(in.cache.quantity, Quantity::importance);
+  EXPECT_EQ(in.cache.escape_bins, out.cache.escape_bins);
+  EXPECT_EQ(in.cache.escape_weights, out.cache.escape_weights);
+  const MappedCache mapped(path("a.cache"));
+  EXPECT_EQ(mapped.view().quantity, Quantity::importance);
+  EXPECT_EQ(mapped.view().escape_weights.size(), out.cache.escape_weights.size());
+
+  out.cache.escape_bins = {77, 3};
+  EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "bins out of order";
+  out.cache.escape_bins = {3, EscapeMap::kBins};
+  EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "a bin that does not exist";
+  out.cache.escape_bins = {3};
+  EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "weights without bin";
 }
 
 }  // namespace

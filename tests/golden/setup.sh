@@ -5,6 +5,8 @@ set -e
 brdf-fit box.xml -o box.brdf --elevations 8 --quiet
 photon-trace box.xml -o box.photons --count 20000 --quiet
 cache-train --photons box.photons -o box.cache --photons-per-cell 2000 --quiet
+photon-trace box.xml -o box.importons --from camera --count 10000 --quiet
+cache-train --photons box.importons -o box.importance.cache --quiet
 cache-reduce box.cache -o reduced.cache --quiet
 cache-reduce box.brdf -o reduced.brdf --quiet
 render box.xml -o plain.exr --spp 16 --aov variance --png plain.png --quiet

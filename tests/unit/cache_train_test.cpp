@@ -8,6 +8,7 @@
 #include "libguide/cache/guide_cache_view.h"
 #include "libguide/math/frame.h"
 #include "libguide/math/warp.h"
+#include "libguide/spatial/escape_map.h"
 
 namespace waylight {
 namespace {
@@ -206,6 +207,89 @@ TEST(CacheTrain, StreamsOfDifferentLengthCountByTheirParticles) {
   const GuideCache first = train(floor_photons(200'000, 1), floor_info(200'000));
   const GuideCache both = train(floor_photons(20'000, 2), floor_info(20'000), {}, nullptr, first);
   EXPECT_NEAR(mean_comparison(both).irradiance_ratio, 1, 0.06);
+}
+
+// The second stream has ten times the photons per particle, as guided ones would. A floor lit
+// evenly: cells of any size have one irradiance.
+TEST(CacheTrain, StreamsOfOtherPhotonsPerParticleAgreeOnTheIrradiance) {
+  const auto even_photons = [](uint32_t count, float flux, uint64_t seed) {
+    std::vector<Photon> photons;
+    for (uint32_t i = 0; i < count; ++i) {
+      Sampler sampler(seed, 0, i);
+      const Vec2 place = 2 * sampler.next_2d() - Vec2::Ones();
+      photons.push_back({Vec3(place.x(), place.y(), 0),
+                         square_to_cosine_hemisphere(sampler.next_2d()), Vec3::UnitZ(),
+                         Color::Constant(flux / count), 1});
+    }
+    return photons;
+  };
+  GuideCache cache = train(even_photons(20'000, 4, 1), floor_info(20'000));
+  cache = train(even_photons(200'000, 4, 2), floor_info(20'000), {}, nullptr, std::move(cache));
+  ASSERT_GT(cache.cells.size(), 100u);
+  double sum = 0;
+  for (const CacheCell& cell : cache.cells) {
+    EXPECT_NEAR(cell.irradiance, 1, 0.35);
+    sum += cell.irradiance / cache.cells.size();
+  }
+  EXPECT_NEAR(sum, 1, 0.05);
+}
+
+TEST(CacheTrain, FewHeavyPhotonsOfAnEarlierStreamDoNotOutweighAllEvidenceToCome) {
+  CacheTrainOptions options;
+  options.photons_per_cell = 100'000;
+  GuideCache cache = train(floor_photons(100), floor_info(100), options);
+  ASSERT_GT(cache.cells[0].component_count, 0u);
+  cache = train(floor_photons(20'000, 2), floor_info(20), options, nullptr, std::move(cache));
+  EXPECT_GT(cache.cells[0].effective_samples, 5000);
+}
+
+TEST(CacheTrain, RefusesToMixRadianceAndImportance) {
+  PhotonStreamInfo importance = floor_info(1000);
+  importance.quantity = Quantity::importance;
+  GuideCache cache = train(floor_photons(1000), floor_info(1000));
+  EXPECT_EQ(cache.quantity, Quantity::radiance);
+  EXPECT_THROW(CacheTrainer({}, importance, std::move(cache)), Error);
+}
+
+TEST(CacheTrain, ImportonsStraightFromTheCameraCountInNothing) {
+  PhotonStreamInfo info = floor_info(20'000);
+  info.quantity = Quantity::importance;
+  const std::vector<Photon> importons = floor_photons(20'000);
+  const size_t count = importons.size();
+  GuideCache expected = train(importons, info);
+  std::vector<Photon> mixed;
+  for (const Photon& p : importons) {
+    mixed.insert(mixed.end(), 2, p);
+    mixed.back().path_depth = 0;
+  }
+  CacheTrainSummary summary;
+  const GuideCache cache = train(mixed, info, {}, &summary);
+  EXPECT_EQ(summary.dropped_direct, count);
+  EXPECT_EQ(cache.quantity, Quantity::importance);
+  const Vec3 x(0.6f, 0.5f, 0);
+  EXPECT_NEAR(compare_with_lamp(cache, x).irradiance_ratio,
+              compare_with_lamp(expected, x).irradiance_ratio, 0.5)
+      << "counted, they would double it";
+}
+
+TEST(CacheTrain, EscapesOfTwoStreamsAreTheirMeanByParticles) {
+  PhotonStreamInfo info = floor_info(1000);
+  info.quantity = Quantity::importance;
+  const auto trained = [&](float power, uint64_t emitted, GuideCache previous) {
+    info.emitted = emitted;
+    CacheTrainer trainer({}, info, std::move(previous));
+    const std::vector<Escape> escapes = {
+        {Vec3(0.1f, 0.2f, 0), Vec3::UnitZ(), Color::Constant(power), 1},
+        {Vec3::Zero(), Vec3::UnitX(), Color::Ones(), 0}};
+    trainer.consume(escapes);
+    return trainer.finish(nullptr);
+  };
+  GuideCache cache = trained(4, 1000, {});
+  ASSERT_EQ(cache.escape_bins, std::vector<uint32_t>{EscapeMap::bin(Vec3::UnitZ())});
+  cache = trained(8, 3000, std::move(cache));
+  float sum = 0;
+  for (const float w : cache.escape_weights) sum += w;
+  EXPECT_FLOAT_EQ(sum, 7);
 }
 
 TEST(CacheTrain, RefusesACacheWithoutStatistics) {

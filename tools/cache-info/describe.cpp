@@ -136,11 +136,13 @@ Json describe_cache(const std::string& path) {
   const GuideCache& cache = file.cache;
   Json info = head(path, "cache");
   add_provenance(info, file.provenance);
-  info.update({{"passes", cache.passes},
+  info.update({{"quantity", quantity_name(cache.quantity)},
+               {"passes", cache.passes},
                {"particles", cache.emitted},
                {"photons", cache.photons},
                {"nodes", cache.nodes.size()}});
   add_cells(info, cache);
+  if (!cache.escape_bins.empty()) info["escape_bins"] = cache.escape_bins.size();
   info["training"] = describe_training(cache);
   return info;
 }
@@ -179,9 +181,11 @@ Json describe_photons(const std::string& path, const ToolRun& run) {
   add_provenance(info, reader.header().provenance);
   const PhotonCounts& c = reader.counts();
   info.update({{"hash", hex(reader.content_hash())},
+               {"quantity", quantity_name(reader.header().stream.quantity)},
                {"pass", reader.header().stream.pass},
                {"particles", c.emitted},
                {"photons", c.stored},
+               {"escapes", c.escapes},
                {"left_scene", c.left_scene},
                {"absorbed", c.absorbed},
                {"too_deep", c.too_deep},

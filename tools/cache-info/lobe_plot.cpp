@@ -41,6 +41,9 @@ DiskPicture picture_of_photons(const std::string& path, const MappedCache& cache
   require_same_scene(path, header.provenance, cache.provenance().scene_name,
                      cache.provenance().scene, SceneParts::all);
   const GuideCacheView view = cache.view();
+  if (header.stream.quantity != view.quantity)
+    fail("\"{}\": holds {}, and the cache {}", path, quantity_name(header.stream.quantity),
+         quantity_name(view.quantity));
   const Frame frame(view.cells[index].normal);
   DiskPicture picture(size);
   for (std::vector<Photon> photons; reader.read(&photons);) {

@@ -12,11 +12,15 @@
 namespace waylight {
 namespace {
 
-CacheFile read_previous(const CacheTrainArguments& arguments, const Provenance& photons) {
+CacheFile read_previous(const CacheTrainArguments& arguments, const PhotonHeader& header) {
   if (arguments.previous.empty()) return {};
   CacheFile previous = read_cache(arguments.previous);
-  require_same_scene(arguments.previous, previous.provenance, photons.scene_name, photons.scene,
-                     SceneParts::all);
+  require_same_scene(arguments.previous, previous.provenance, header.provenance.scene_name,
+                     header.provenance.scene, SceneParts::all);
+  if (previous.cache.quantity != header.stream.quantity)
+    fail("\"{}\": holds {}, and \"{}\" {}: train each in a cache of its own", arguments.previous,
+         quantity_name(previous.cache.quantity), arguments.photons,
+         quantity_name(header.stream.quantity));
   if (previous.cache.training.empty())
     fail("\"{}\": is a reduced cache, which cannot be trained further; give the file it came from",
          arguments.previous);
@@ -25,9 +29,11 @@ CacheFile read_previous(const CacheTrainArguments& arguments, const Provenance& 
 
 void consume_all(PhotonReader& reader, CacheTrainer& trainer, const ToolRun& run) {
   std::vector<Photon> photons;
-  for (double done = 0; reader.read(&photons);) {
+  std::vector<Escape> escapes;
+  for (double done = 0; reader.read(&photons, &escapes);) {
     run.stop_if_interrupted();
     trainer.consume(photons);
+    trainer.consume(escapes);
     done += static_cast<double>(photons.size());
     run.control.progress(done, 0, "photons");
   }
@@ -45,9 +51,11 @@ Provenance provenance(const ToolRun& run, const ToolInfo& tool,
   return result;
 }
 
-void report(const ToolRun& run, const Provenance& provenance, const CacheTrainSummary& s) {
+void report(const ToolRun& run, const Provenance& provenance, Quantity quantity,
+            const CacheTrainSummary& s) {
   const double photons = static_cast<double>(s.photons);
-  run.print(fmt::format("{} photons in {:.1f} s ({}/s)", format_count(photons), s.seconds,
+  const char* particles = quantity == Quantity::radiance ? "photons" : "importons";
+  run.print(fmt::format("{} {} in {:.1f} s ({}/s)", format_count(photons), particles, s.seconds,
                         format_count(photons / std::max(s.seconds, 1e-9))));
   run.print(
       fmt::format("{} cells, {} with a mixture of {:.1f} components and {:.0f} effective samples",
@@ -60,7 +68,9 @@ void report(const ToolRun& run, const Provenance& provenance, const CacheTrainSu
   if (s.cells_with_mixture == 0) run.control.warn("no cell saw enough photons for a mixture");
   nlohmann::ordered_json stats = stats_of(provenance);
   stats.update({{"seconds", s.seconds},
+                {"quantity", quantity_name(quantity)},
                 {"photons", s.photons},
+                {"escapes", s.escapes},
                 {"rejected", s.rejected},
                 {"dropped_direct", s.dropped_direct},
                 {"weights_capped", s.weights_capped},
@@ -81,7 +91,7 @@ void cache_train(const ToolRun& run, const ToolInfo& tool, const CacheTrainArgum
   arguments.options.validate();
   PhotonReader reader(arguments.photons);
   const PhotonHeader& header = reader.header();
-  CacheFile previous = read_previous(arguments, header.provenance);
+  CacheFile previous = read_previous(arguments, header);
   CacheTrainer trainer(arguments.options, header.stream, std::move(previous.cache));
   consume_all(reader, trainer, run);
   CacheTrainSummary summary;
@@ -90,7 +100,7 @@ void cache_train(const ToolRun& run, const ToolInfo& tool, const CacheTrainArgum
   file.provenance = provenance(run, tool, arguments, reader);
   run.stop_if_interrupted();
   write_cache(arguments.output, file);
-  report(run, file.provenance, summary);
+  report(run, file.provenance, file.cache.quantity, summary);
 }
 
 }  // namespace waylight

@@ -40,7 +40,8 @@ void declare(CLI::App& app, CacheTrainArguments& arguments) {
   add_choice(
       app, "--direct", {"drop", "keep"},
       [&options](size_t i) { options.direct = i == 0 ? DirectLight::drop : DirectLight::keep; },
-      "Photons straight from an emitter, which next-event estimation finds too");
+      "Photons straight from an emitter, which next-event estimation finds too, and importons "
+      "straight from the camera, which photons cannot hit");
 }
 
 }  // namespace

@@ -15,11 +15,17 @@ constexpr ToolInfo kTool = {
 glass too. Each hit of a surface that is not purely specular is one photon: where, from which
 direction, how much power, after how many scatterings. `cache-train` learns from them.
 
+With --from camera the particles are importons: they carry importance from the camera over the whole
+film, and are stored where they hit emitters too. `cache-train` makes an importance cache of them.
+With --importance, photons follow such a cache from the emitters to where the camera sees.
+
 Equal scene, count, seed and pass give equal bytes at any number of threads. Passes of the same seed
 are independent of each other.
 
 Examples:
   photon-trace room.xml -o room.photons --count 4000000
+  photon-trace room.xml -o room.importons --from camera --count 1000000
+  photon-trace room.xml -o room.photons --importance room.importance.cache
   photon-trace room.xml -o - --count 100000000 | cache-train --photons - -o room.cache)"};
 
 void declare(CLI::App& app, PhotonTraceArguments& arguments) {
@@ -29,6 +35,14 @@ void declare(CLI::App& app, PhotonTraceArguments& arguments) {
   as_output(
       app.add_option("-o,--output", arguments.output, "Photon file; - is the standard output"))
       ->required();
+  add_choice(
+      app, "--from", {"lights", "camera"},
+      [&options](size_t i) {
+        options.quantity = i == 0 ? Quantity::radiance : Quantity::importance;
+      },
+      "Photons of the emitters, or importons of the camera");
+  as_input(app.add_option("--importance", arguments.importance,
+                          "Importance cache that guides the photons"));
   app.add_option("--count", options.count, "Particles to emit")
       ->check(CLI::Range(1ull, 4000000000ull));
   app.add_option("--seed", options.seed, "Seed of the random numbers");

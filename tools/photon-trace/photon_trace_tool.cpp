@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "formats/cache_file.h"
 #include "formats/photon_file.h"
 #include "libguide/base/error.h"
 #include "tools/common/provenance_of.h"
@@ -11,10 +13,12 @@
 namespace waylight {
 namespace {
 
-void report(const ToolRun& run, const Provenance& provenance, const PhotonTraceSummary& s) {
+void report(const ToolRun& run, const Provenance& provenance, Quantity quantity,
+            const PhotonTraceSummary& s) {
   const double emitted = static_cast<double>(s.emitted);
-  run.print(fmt::format("{} photons of {} particles in {:.1f} s ({}/s)",
-                        format_count(double(s.stored)), format_count(emitted), s.seconds,
+  run.print(fmt::format("{} {} of {} particles in {:.1f} s ({}/s)", format_count(double(s.stored)),
+                        quantity == Quantity::radiance ? "photons" : "importons",
+                        format_count(emitted), s.seconds,
                         format_count(emitted / std::max(s.seconds, 1e-9))));
   run.print(fmt::format("particles: {:.1f} % absorbed, {:.1f} % left the scene, {:.2f} % too deep",
                         100 * s.absorbed / emitted, 100 * s.left_scene / emitted,
@@ -24,14 +28,30 @@ void report(const ToolRun& run, const Provenance& provenance, const PhotonTraceS
     run.control.warn("no particle hit a surface that stores photons: a cache cannot be trained");
   nlohmann::ordered_json stats = stats_of(provenance);
   stats.update({{"seconds", s.seconds},
+                {"quantity", quantity_name(quantity)},
                 {"emitted", s.emitted},
                 {"stored", s.stored},
+                {"escapes", s.escapes},
                 {"absorbed", s.absorbed},
                 {"left_scene", s.left_scene},
                 {"too_deep", s.too_deep},
                 {"invalid", s.invalid},
                 {"peak_memory_bytes", peak_memory_bytes()}});
   run.write_stats(stats);
+}
+
+std::optional<MappedCache> open_importance(const PhotonTraceArguments& arguments,
+                                           const SceneDescription& scene) {
+  if (arguments.importance.empty()) return std::nullopt;
+  MappedCache cache(arguments.importance);
+  require_same_scene(arguments.importance, cache.provenance(), file_name(arguments.scene.path),
+                     scene.hash, SceneParts::all);
+  if (cache.view().quantity != Quantity::importance)
+    fail(
+        "\"{}\": holds radiance; --importance needs a cache trained on `photon-trace --from "
+        "camera`",
+        arguments.importance);
+  return cache;
 }
 
 }  // namespace
@@ -42,18 +62,23 @@ void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArg
   const std::unique_ptr<Scene> built =
       build_scene(load_scene(arguments.scene, run), arguments.scene, run);
   const Scene& scene = *built;
-  if (!scene.has_lights())
+  if (options.quantity == Quantity::radiance && !scene.has_lights())
     fail("\"{}\": no emitter sends light into the scene, so there are no photons to trace",
          arguments.scene.path);
-  const Provenance provenance =
+  const std::optional<MappedCache> importance = open_importance(arguments, scene.description());
+  Provenance provenance =
       provenance_of(run, tool, options.seed, arguments.scene, scene.description().hash);
-  PhotonWriter writer(arguments.output,
-                      {provenance, {scene.bounds(), options.count, options.pass}});
+  if (importance) provenance.parents.push_back(parent_of(arguments.importance));
+  PhotonWriter writer(
+      arguments.output,
+      {provenance, {scene.bounds(), options.count, options.pass, options.quantity}});
   const PhotonTraceSummary summary = trace_photons(
-      scene, options, [&](std::span<const Photon> photons) { writer.write(photons); }, run.control);
+      scene, options, [&](std::span<const Photon> photons) { writer.write(photons); }, run.control,
+      [&](std::span<const Escape> escapes) { writer.write(escapes); },
+      importance ? importance->view() : GuideCacheView());
   run.stop_if_interrupted();
   writer.finish(summary);
-  report(run, provenance, summary);
+  report(run, provenance, options.quantity, summary);
 }
 
 }  // namespace waylight

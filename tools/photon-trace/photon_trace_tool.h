@@ -7,7 +7,7 @@ namespace waylight {
 
 struct PhotonTraceArguments {
   SceneArguments scene;
-  std::string output;
+  std::string output, importance;
   PhotonTraceOptions options;
 };
 

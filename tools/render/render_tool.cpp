@@ -27,6 +27,11 @@ struct LoadedCaches {
     guide.emplace(arguments.cache);
     require_same_scene(arguments.cache, guide->provenance(), scene_name, scene.hash,
                        SceneParts::all);
+    if (guide->view().quantity != Quantity::radiance)
+      fail(
+          "\"{}\": is an importance cache, which guides photons (photon-trace --importance); "
+          "render needs one trained on photons",
+          arguments.cache);
     if (guide->view().cells.empty())
       fail("\"{}\": has no cells; train it on photons of the scene", arguments.cache);
     parents.push_back(parent_of(arguments.cache));

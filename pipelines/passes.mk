@@ -1,0 +1,90 @@
+# Rules of the training: photons, and the cache trained on them, $(OUT)/scene.cache. Included by
+# rules.mk, which lists the variables. `training` is the stages whose time is that of the training.
+
+ifeq ($(PASSES),0)
+$(OUT)/scene.photons $(OUT)/photon-trace.json &: $(SCENE) $(SCENE_INPUTS) \
+    $(OUT)/.options/photon-trace $(BIN)/photon-trace
+	$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $(OUT)/scene.photons \
+	  --count $(PHOTONS) --seed $(SEED) --stats $(OUT)/photon-trace.json \
+	  $(PHOTON_TRACE_FLAGS) $(QUIET)
+
+$(OUT)/scene.cache $(OUT)/cache-train.json &: $(OUT)/scene.photons $(OUT)/.options/cache-train \
+    $(OUT)/.options/passes $(BIN)/cache-train
+	$(LAUNCH) $(BIN)/cache-train --photons $(OUT)/scene.photons -o $(OUT)/scene.cache \
+	  --stats $(OUT)/cache-train.json $(CACHE_TRAIN_FLAGS) $(QUIET)
+
+training := photon-trace cache-train
+
+$(OUT)/passes.svg:
+	@echo "passes-chart needs PASSES=N, at least 1" >&2; exit 2
+else
+pass_numbers := $(shell seq $(PASSES))
+before = $(shell expr $(1) - 1)
+# $(call go_on,pass,suffix): the cache of the pass before, none for the first.
+go_on = $(if $(filter 1,$(1)),,$(OUT)/pass-$(call before,$(1)).$(2))
+
+# $(call pass_rules,pass): importons, the importance cache that goes on with them, photons guided by
+# it, the radiance cache that goes on with them. Each is a file, so training stops and goes on.
+define pass_rules
+$(OUT)/pass-$(1).importons $(OUT)/importon-trace-$(1).json &: $(SCENE) $(SCENE_INPUTS) \
+    $(OUT)/.options/importons $(BIN)/photon-trace
+	$$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $(OUT)/pass-$(1).importons \
+	  --from camera --count $(IMPORTONS) --seed $(SEED) --pass $(1) \
+	  --stats $(OUT)/importon-trace-$(1).json $(QUIET)
+
+$(OUT)/pass-$(1).importance.cache $(OUT)/importance-train-$(1).json &: \
+    $(OUT)/pass-$(1).importons $(call go_on,$(1),importance.cache) $(OUT)/.options/cache-train \
+    $(BIN)/cache-train
+	$$(LAUNCH) $(BIN)/cache-train --photons $(OUT)/pass-$(1).importons \
+	  $(addprefix --in ,$(call go_on,$(1),importance.cache)) \
+	  -o $(OUT)/pass-$(1).importance.cache --stats $(OUT)/importance-train-$(1).json \
+	  $(CACHE_TRAIN_FLAGS) $(QUIET)
+
+$(OUT)/pass-$(1).photons $(OUT)/photon-trace-$(1).json &: $(SCENE) $(SCENE_INPUTS) \
+    $(OUT)/pass-$(1).importance.cache $(OUT)/.options/photon-trace $(BIN)/photon-trace
+	$$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $(OUT)/pass-$(1).photons \
+	  --importance $(OUT)/pass-$(1).importance.cache --count $(PHOTONS) --seed $(SEED) \
+	  --pass $(1) --stats $(OUT)/photon-trace-$(1).json $(PHOTON_TRACE_FLAGS) $(QUIET)
+
+$(OUT)/pass-$(1).cache $(OUT)/cache-train-$(1).json &: $(OUT)/pass-$(1).photons \
+    $(call go_on,$(1),cache) $(OUT)/.options/cache-train $(BIN)/cache-train
+	$$(LAUNCH) $(BIN)/cache-train --photons $(OUT)/pass-$(1).photons \
+	  $(addprefix --in ,$(call go_on,$(1),cache)) -o $(OUT)/pass-$(1).cache \
+	  --stats $(OUT)/cache-train-$(1).json $(CACHE_TRAIN_FLAGS) $(QUIET)
+
+$(OUT)/pass-$(1).reduced.cache: $(OUT)/pass-$(1).cache $(OUT)/.options/cache-reduce \
+    $(BIN)/cache-reduce
+	$$(LAUNCH) $(BIN)/cache-reduce $$< -o $$@ $(CACHE_REDUCE_FLAGS) $(QUIET)
+
+$(OUT)/pass-$(1).exr $(OUT)/pass-$(1).json &: $(SCENE) $(SCENE_INPUTS) \
+    $(OUT)/pass-$(1).reduced.cache $(OUT)/reduced.brdf $(OUT)/.options/render \
+    $(OUT)/.options/passes-chart $(BIN)/render
+	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $(OUT)/pass-$(1).exr --mode product \
+	  --cache $(OUT)/pass-$(1).reduced.cache --brdf $(OUT)/reduced.brdf --spp $(PASSES_SPP) \
+	  --size $(SIZE) --seed $(SEED) --aov variance --stats $(OUT)/pass-$(1).json \
+	  $(RENDER_FLAGS) $(QUIET)
+
+$(OUT)/pass-$(1).csv: $(OUT)/pass-$(1).exr $(OUT)/pass-$(1).json $(REFERENCE) \
+    $(BIN)/image-compare
+	@rm -f $$@.tmp
+	$$(LAUNCH) $(BIN)/image-compare $(OUT)/pass-$(1).exr $(REFERENCE) \
+	  --render-stats $(OUT)/pass-$(1).json --label scene=$(NAME) --label method=product \
+	  --csv $$@.tmp && mv $$@.tmp $$@
+endef
+$(foreach i,$(pass_numbers),$(eval $(call pass_rules,$(i))))
+
+$(OUT)/scene.cache: $(OUT)/pass-$(PASSES).cache $(OUT)/.options/passes
+	cp $< $@.tmp && mv $@.tmp $@
+
+$(OUT)/passes.csv: $(pass_numbers:%=$(OUT)/pass-%.csv) $(OUT)/.options/passes
+	@for pass in $(pass_numbers); do awk -v pass=$$pass 'FNR > 1 { print pass "," $$0 } \
+	  FNR == 1 && pass == 1 { print "pass," $$0 }' $(OUT)/pass-$$pass.csv || exit 1; \
+	  done > $@.tmp && mv $@.tmp $@
+
+$(OUT)/passes.svg: $(OUT)/passes.csv $(BIN)/chart
+	$(LAUNCH) $(BIN)/chart $< -o $@ --x pass --linear x \
+	  --title "$(NAME): product guiding, $(PASSES_SPP) samples per pixel" $(QUIET)
+
+training := $(foreach i,$(pass_numbers),\
+  importon-trace-$(i) importance-train-$(i) photon-trace-$(i) cache-train-$(i))
+endif
