@@ -224,6 +224,7 @@ GuideCache CacheTrainer::Impl::finish(CacheTrainSummary* summary) {
   clock_.photons = static_cast<double>(cache_.photons);
   clock_.particles = static_cast<double>(cache_.emitted);
   tree_.restate_exposure(clock_);
+  tree_.lend_mixtures();
   tree_.store(cache_, tree_options_, clock_.photons / clock_.particles);
   escapes_.store(cache_);
   if (summary) summarise(cache_, *summary);

@@ -18,10 +18,10 @@ namespace waylight {
 enum class DirectLight { keep, drop };
 
 struct CacheTrainOptions {
-  int components = 8;           // K, 1..8
-  int photons_per_cell = 1000;  // a cell that saw more is split, 64..10^7
-  int max_cells = 200'000;      // 1..10^7
-  float normal_spread = 0.9f;   // cells whose mean normal is shorter are split by orientation
+  int components = 8;          // K, 1..8
+  int photons_per_cell = 300;  // a cell that saw more is split, 64..10^7
+  int max_cells = 200'000;     // 1..10^7
+  float normal_spread = 0.9f;  // cells whose mean normal is shorter are split by orientation
   DirectLight direct = DirectLight::drop;
   MixturePrior prior;
 

@@ -9,9 +9,21 @@
 
 namespace waylight {
 
-// Cells with fewer effective samples than this are not worth following: two per component of a
-// full mixture. Their mixture would be noise that looks like a lobe.
+// Cells with fewer effective samples than this are not followed: what they know is an ancestor's,
+// from a place many times as large. In an interior with patches of sunlight, where a third of the
+// cells have no more, following them did not lower the error of images.
 inline constexpr float kMinEffectiveSamples = 16;
+
+// Effective samples n at which a cell is followed half as often as one that is certain.
+inline constexpr float kHalfTrustSamples = 4;
+
+// The share of the guiding probability that a cell's evidence bears, n / (n + 4): 0.8 of one
+// that saw 16 photons and 0.97 of one that saw 130. One-sample MIS that guides with probability g
+// has at most 1 / (1 - g) times the second moment of BSDF sampling: a cell can do less harm the
+// less it knows.
+inline float guiding_trust(const CacheCell& cell) {
+  return cell.effective_samples / (cell.effective_samples + kHalfTrustSamples);
+}
 
 // A surface guides and is guided only by a cell whose normal is within 75 degrees of its own: the
 // other side of a thin wall, or the next wall of a corner, may share the cell where it got too few
@@ -40,8 +52,8 @@ struct GuideCacheView {
   }
   explicit GuideCacheView(GuideCache&&) = delete;  // it would dangle
 
-  // The cell that guides at a point of a surface; nullptr where the cache knows too little: sample
-  // the BSDF there.
+  // The cell that guides at a point of a surface, as far as guiding_trust() goes; nullptr where the
+  // cache knows too little: sample the BSDF there.
   const CacheCell* query(const Vec3& position, const Vec3& normal) const {
     if (nodes.empty()) return nullptr;
     const CacheCell& cell = cells[find_leaf(nodes, position, normal)];

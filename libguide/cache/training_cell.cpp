@@ -16,11 +16,13 @@ namespace waylight {
 namespace {
 
 // One component per so many effective samples of a first batch: fewer points than that under a
-// lobe fit the noise.
+// lobe fit the noise. With 24 of them held-out photons were less likely, by up to 0.2 nats: lobes
+// that only splits add later find the light less well.
 constexpr float kSamplesPerComponent = 8;
 
 // After a position split the next step has eta = 6^-0.7 = 0.29: ten batches of its own, 640
-// photons, leave 15 % of what the parent knew.
+// photons, leave 15 % of what the parent knew. Of 1 .. 20 none makes held-out photons more likely
+// by more than 0.013 nats, in rooms where light varies fast or slowly with the place.
 constexpr float kInheritedStep = 5;
 
 // The frame of a cell follows the mean normal of its photons once it is off by more than 5 degrees
@@ -224,13 +226,7 @@ TrainingCell TrainingCell::child(const CellSplit& split, double now, double min_
   child.training_.inherited_area = static_cast<float>(std::max(photon_area(training_), min_area));
   if (split.by_normal()) return child;
   inherit_irradiance(child.training_, now, min_area);
-  child.cell_.photon_count = 0.5f * cell_.photon_count;
-  child.training_.weight_sum = 0.5 * training_.weight_sum;
-  child.training_.weight_sum2 = 0.5 * training_.weight_sum2;
-  child.weigh_evidence();
-  child.training_.samples = training_.samples;
-  child.training_.step = std::min(training_.step, kInheritedStep);
-  child.set_mixture(components(), statistics());
+  child.inherit_mixture(*this, 0.5f);
   child.cell_.component_count = static_cast<uint32_t>(
       grow_mixture(child.components_, child.statistics_, cell_.component_count,
                    components_for(training_.samples, options)));
@@ -238,6 +234,17 @@ TrainingCell TrainingCell::child(const CellSplit& split, double now, double min_
   child.pending_ = pending_;
   child.pending_count_ = pending_count_;
   return child;
+}
+
+void TrainingCell::inherit_mixture(const TrainingCell& from, float share) {
+  cell_.normal = from.cell_.normal;
+  cell_.photon_count = share * from.cell_.photon_count;
+  training_.weight_sum = share * from.training_.weight_sum;
+  training_.weight_sum2 = share * from.training_.weight_sum2;
+  weigh_evidence();
+  training_.samples = from.training_.samples;
+  training_.step = std::min(from.training_.step, kInheritedStep);
+  set_mixture(from.components(), from.statistics());
 }
 
 // As if the child had seen kInheritedPhotons of its half of the parent's photons: where it is dark

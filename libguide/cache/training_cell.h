@@ -46,6 +46,10 @@ class TrainingCell {
   TrainingCell child(const CellSplit& split, double now, double min_area,
                      const CellTrainingOptions& options) const;
 
+  // Takes over the mixture of a cell nearby, as a child does that of its parent; `share` of its
+  // evidence, in (0, 1], comes with it.
+  void inherit_mixture(const TrainingCell& from, float share);
+
   // Weight per area and photon of the stream, with a few photons' worth of what its parent knew.
   // Photons on less than min_area count as spread over it.
   float irradiance(double now, double min_area) const;

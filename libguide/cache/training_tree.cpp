@@ -6,8 +6,37 @@
 #include <cmath>
 
 #include "libguide/base/parallel.h"
+#include "libguide/cache/cell_moments.h"
+#include "libguide/cache/guide_cache_view.h"
 
 namespace waylight {
+
+namespace {
+
+// How far a cell looks for a mixture to inherit: ancestors up, and leaves under each.
+constexpr int kMaxGenerations = 6;
+constexpr size_t kMaxRelatives = 64;
+
+// The root is its own parent.
+std::vector<uint32_t> parents_of(std::span<const CacheNode> nodes) {
+  std::vector<uint32_t> parents(nodes.size());
+  for (uint32_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i].axis != kLeafAxis) parents[nodes[i].child] = parents[nodes[i].child + 1] = i;
+  return parents;
+}
+
+// A cell that saw nothing does not know its side: lookups compare normals in any case.
+bool same_side(const TrainingCell& borrower, const TrainingCell& lender) {
+  const Vec3& normal = lender.cell().normal;
+  return borrower.training().count == 0 ||
+         mean_normal(borrower.training(), normal).dot(normal) >= kMinNormalCosine;
+}
+
+float distance2(const TrainingCell& a, const TrainingCell& b) {
+  return (a.training().position_mean - b.training().position_mean).squaredNorm();
+}
+
+}  // namespace
 
 static_assert(kMaxTreeDepth < 256);
 
@@ -74,6 +103,51 @@ void TrainingTree::restate_exposure(const TrainingClock& clock) {
     const double share = clock.exposure(cell.training().born) / clock.particles;
     cell.restate_birth(clock.photons * std::clamp(1 - share, 0.0, 1.0));
   }
+}
+
+void TrainingTree::lend_mixtures() {
+  const std::vector<uint32_t> parents = parents_of(nodes_);
+  std::vector<Loan> loans;
+  for (uint32_t i = 0; i < cells_.size(); ++i) {
+    if (!cells_[i].components().empty()) continue;
+    if (const std::optional<Loan> loan = find_loan(i, parents)) loans.push_back(*loan);
+  }
+  for (const Loan& loan : loans)
+    cells_[loan.borrower].inherit_mixture(cells_[loan.lender], loan.share);
+}
+
+// Each generation halves the evidence, as the splits in between would have done.
+std::optional<TrainingTree::Loan> TrainingTree::find_loan(uint32_t borrower,
+                                                          std::span<const uint32_t> parents) const {
+  uint32_t node = node_of_cell_[borrower];
+  float share = 1;
+  for (int i = 0; i < kMaxGenerations && node != 0; ++i) {
+    node = parents[node];
+    share *= 0.5f;
+    if (const std::optional<uint32_t> lender = nearest_lender(cells_[borrower], node))
+      return Loan{borrower, *lender, share};
+  }
+  return std::nullopt;
+}
+
+std::optional<uint32_t> TrainingTree::nearest_lender(const TrainingCell& borrower,
+                                                     uint32_t subtree) const {
+  std::optional<uint32_t> nearest;
+  std::vector<uint32_t> open = {subtree};
+  for (size_t leaves = 0; !open.empty() && leaves < kMaxRelatives;) {
+    const CacheNode& node = nodes_[open.back()];
+    open.pop_back();
+    if (node.axis != kLeafAxis) {
+      open.insert(open.end(), {node.child + 1, node.child});
+      continue;
+    }
+    ++leaves;
+    const TrainingCell& lender = cells_[node.child];
+    if (lender.components().empty() || !same_side(borrower, lender)) continue;
+    if (!nearest || distance2(borrower, lender) < distance2(borrower, cells_[*nearest]))
+      nearest = node.child;
+  }
+  return nearest;
 }
 
 void TrainingTree::store(GuideCache& cache, const TreeOptions& tree,

@@ -2,6 +2,7 @@
 // The cells of a cache in training and the tree over them.
 
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "libguide/cache/training_cell.h"
@@ -44,12 +45,21 @@ class TrainingTree {
   // mean rate of the whole training; for a first stream they do.
   void restate_exposure(const TrainingClock& clock);
 
+  // Cells without a mixture inherit that of a relative nearby whose surface faces the same way.
+  void lend_mixtures();
+
   // irradiance_scale: photons per emitted particle, 1/J to W of TrainingCell::irradiance.
   void store(GuideCache& cache, const TreeOptions& tree, double irradiance_scale) const;
 
   size_t bytes() const;
 
  private:
+  struct Loan {
+    uint32_t borrower = 0, lender = 0;
+    float share = 1;  // of the lender's evidence
+  };
+  std::optional<Loan> find_loan(uint32_t borrower, std::span<const uint32_t> parents) const;
+  std::optional<uint32_t> nearest_lender(const TrainingCell& borrower, uint32_t subtree) const;
   void split(uint32_t cell, const CellSplit& split, const TreeOptions& tree,
              const CellTrainingOptions& options, double now);
 

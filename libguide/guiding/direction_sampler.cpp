@@ -42,6 +42,7 @@ void DirectionSampler::prepare_guide(const GuidingCaches& caches, DirectionGuide
     guiding_prob_ = 0;
     return;
   }
+  guiding_prob_ *= guiding_trust(*cell);
   irradiance_ = cell->irradiance;
   cell_frame_ = Frame(cell->normal);
   light_ = caches.guide().mixture(*cell);

@@ -51,6 +51,23 @@ void expect_equal(const CellTraining& a, const CellTraining& b) {
   EXPECT_EQ(a.weight_sum2, b.weight_sum2);
 }
 
+TEST_F(RoundTrip, AFullCellTakesLessThanHalfAKilobyteOfAReducedCache) {
+  constexpr uint32_t kCells = 1024;
+  CacheFile file = small_cache();
+  GuideCache& c = file.cache;
+  c.statistics.clear(), c.training.clear(), c.components.clear(), c.cells.clear();
+  c.nodes.clear();
+  for (uint32_t i = 0; i + 1 < kCells; ++i) c.nodes.push_back({0, 2 * i + 1, 0});
+  for (uint32_t i = 0; i < kCells; ++i) {
+    c.nodes.push_back({0, i, kLeafAxis});
+    c.cells.push_back({Vec3::UnitZ(), 1, 100, 100, 1, 8 * i, 8});
+    c.components.insert(c.components.end(), 8, {0.125f, 0.1f, 0.2f, 0.01f, 0, 0.02f});
+  }
+  write_cache(path("full.cache"), file);
+  EXPECT_LT(std::filesystem::file_size(path("full.cache")), kCells * 512);
+  EXPECT_EQ(read_cache(path("full.cache")).cache.cells.size(), kCells);
+}
+
 TEST_F(RoundTrip, CacheWithTrainingStatistics) {
   const CacheFile out = small_cache();
   write_cache(path("a.cache"), out);

@@ -101,6 +101,12 @@ Json describe_brdf(const std::string& path) {
   return info;
 }
 
+// What guiding needs of a cache, in the file and in memory alike; training has more.
+double guide_bytes(const GuideCache& cache) {
+  return double(cache.nodes.size() * sizeof(CacheNode) + cache.cells.size() * sizeof(CacheCell) +
+                cache.components.size() * sizeof(GaussianComponent));
+}
+
 void add_cells(Json& info, const GuideCache& cache) {
   uint64_t with_mixture = 0, usable = 0;
   Range components, effective, photons, irradiance, mass;
@@ -117,6 +123,7 @@ void add_cells(Json& info, const GuideCache& cache) {
   info.update({{"cells", cache.cells.size()},
                {"cells_with_mixture", with_mixture},
                {"cells_that_guide", usable},
+               {"bytes_per_cell", ratio(guide_bytes(cache), double(cache.cells.size()))},
                {"components", components.json()},
                {"effective_samples", effective.json()},
                {"photons_per_cell", photons.json()},

@@ -30,7 +30,8 @@ void report(const ToolRun& run, const Provenance& provenance, const CacheReduceA
                 {"components_after", s.components_after},
                 {"mean_cost", s.mean_cost},
                 {"bytes_before", before},
-                {"bytes_after", after}});
+                {"bytes_after", after},
+                {"bytes_per_mixture", double(after) / double(std::max<size_t>(s.mixtures, 1))}});
   run.write_stats(stats);
 }
 

@@ -38,6 +38,19 @@ TEST(GuideCacheView, IsSilentOnTooLittleEvidence) {
   EXPECT_EQ(GuideCacheView(cache).query(Vec3(-0.5f, 0, 0), Vec3::UnitZ()), nullptr);
 }
 
+TEST(GuideCacheView, TrustsACellAsFarAsItsEvidenceGoes) {
+  CacheCell cell;
+  EXPECT_EQ(guiding_trust(cell), 0);
+  cell.effective_samples = kHalfTrustSamples;
+  EXPECT_EQ(guiding_trust(cell), 0.5f);
+  float previous = 0;
+  for (cell.effective_samples = 1e-3f; cell.effective_samples < 1e7f; cell.effective_samples *= 2) {
+    EXPECT_GT(guiding_trust(cell), previous);
+    previous = guiding_trust(cell);
+  }
+  EXPECT_LE(previous, 1);
+}
+
 TEST(GuideCacheView, DoesNotGuideTheOtherSideOfAWall) {
   const GuideCache cache = two_cells();
   EXPECT_EQ(GuideCacheView(cache).query(Vec3(-0.5f, 0, 0), -Vec3::UnitZ()), nullptr);
