@@ -6,49 +6,14 @@
 #include "libguide/base/error.h"
 #include "libguide/base/memory.h"
 #include "libguide/base/parallel.h"
+#include "libguide/render_plan.h"
 #include "libguide/scene/camera.h"
 #include "libguide/transport/film.h"
 #include "libguide/transport/path_tracer.h"
 #include "libguide/transport/pixel_estimate.h"
+#include "libguide/transport/share_pilot.h"
 
 namespace waylight {
-
-namespace {
-
-Roulette roulette_of(const RenderOptions& options) {
-  switch (options.roulette) {
-    case RouletteMode::none:
-      return Roulette::none;
-    case RouletteMode::throughput:
-      return Roulette::throughput;
-    case RouletteMode::guided:
-      return Roulette::guided;
-    case RouletteMode::automatic:
-      break;
-  }
-  return options.mode == RenderMode::bsdf ? Roulette::throughput : Roulette::guided;
-}
-
-}  // namespace
-
-void RenderOptions::validate() const {
-  require(spp > 0 || time > 0 || error > 0, "one of --spp, --time and --error must be given");
-  require(spp >= 0 && spp <= 1 << 24, "--spp must be in [1, 16777216], not {}", spp);
-  require(time >= 0 && std::isfinite(time), "--time must be a number of seconds, not {}", time);
-  require(error >= 0 && std::isfinite(error), "--error must be positive, not {}", error);
-  require(
-      width >= 0 && height >= 0 && width <= 65536 && height <= 65536 && (width > 0) == (height > 0),
-      "--size must be WIDTHxHEIGHT with both in [1, 65536]");
-  require(max_depth >= -2 && max_depth != 0, "--max-depth must be at least 1, or -1 for no limit");
-  require(rr_depth >= -1, "--rr-depth must not be negative");
-  require(roulette != RouletteMode::guided || mode != RenderMode::bsdf,
-          "--rr guided needs the cache of --mode illumination or product");
-  require(split >= 1 && split <= kMaxSplit, "--split must be in [1, {}], not {}", kMaxSplit, split);
-  require(split == 1 || roulette_of(*this) == Roulette::guided,
-          "--split needs guided roulette: --mode illumination or product, --rr guided or auto");
-  require(guiding_prob == -1 || (guiding_prob >= 0 && guiding_prob <= 0.99f),
-          "--guiding-prob must be in [0, 0.99], or -1 for the mode's own, not {}", guiding_prob);
-}
 
 namespace {
 
@@ -104,26 +69,10 @@ FilmDescription film_of(const FilmDescription& scene_film, const RenderOptions& 
   return film;
 }
 
-PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& options) {
-  const IntegratorDefaults& defaults = scene.description().integrator;
-  PathTracerOptions result;
-  result.guide = options.mode == RenderMode::bsdf           ? DirectionGuide::none
-                 : options.mode == RenderMode::illumination ? DirectionGuide::illumination
-                                                            : DirectionGuide::product;
-  const float own_prob = options.mode == RenderMode::product ? 0.7f : 0.5f;
-  result.guiding_prob = options.guiding_prob < 0 ? own_prob : options.guiding_prob;
-  result.roulette = roulette_of(options);
-  result.max_split = options.split;
-  result.max_depth = options.max_depth == -2 ? defaults.max_depth : options.max_depth;
-  result.rr_depth = options.rr_depth == -1 ? defaults.rr_depth : options.rr_depth;
-  result.hide_emitters = defaults.hide_emitters;
-  return result;
-}
-
 void require_caches(const RenderCaches& caches, RenderMode mode) {
   require(mode == RenderMode::bsdf || !caches.guide.cells.empty(),
-          "--mode illumination and product need --cache with at least one trained cell");
-  require(mode != RenderMode::product || caches.brdf, "--mode product needs --brdf");
+          "all modes but bsdf need --cache with at least one trained cell");
+  require(!needs_fits(mode) || caches.brdf, "--mode product and mixture need --brdf");
 }
 
 // Renders whole passes over the image until one of the stopping rules holds.
@@ -131,7 +80,8 @@ class Renderer {
  public:
   Renderer(const Scene& scene, const RenderCaches& caches, const RenderOptions& options,
            const RunControl& control)
-      : options_(options),
+      : scene_(scene),
+        options_(options),
         control_(control),
         sensor_(scene.description().sensor),
         crop_(sensor_.film = film_of(sensor_.film, options)),
@@ -146,8 +96,10 @@ class Renderer {
 
   void run() {
     const Clock::time_point start = Clock::now();
+    if (learns_shares(options_)) learn(start);
+    const double before_preview = seconds_since(start);
     estimate_pixels();
-    preview_seconds_ = seconds_since(start);
+    preview_seconds_ = seconds_since(start) - before_preview;
     int done = 0;
     for (int count = 1; count > 0 && !stopped_; count = next_pass(done, seconds_since(start))) {
       render_pass(done, count);
@@ -171,6 +123,22 @@ class Renderer {
 
  private:
   static constexpr int kMaxPass = 16;
+  static constexpr double kTimeOfPilot = 20;
+
+  // At most a twentieth of the time goes into the pilot.
+  void learn(Clock::time_point start) {
+    SharePilotOptions pilot;
+    pilot.seed = options_.seed;
+    pilot.default_share = default_share(options_.mode);
+    pilot.render_paths = uint64_t(options_.spp) * crop_.width * crop_.height;
+    PathTracerOptions options = tracer_options(scene_, options_);
+    options.max_split = 1;
+    const PathTracer unsplit(scene_, guiding_, options);
+    guiding_.learned(learn_shares(unsplit, sensor_, guiding_.guide().cells.size(), pilot, [&] {
+      return control_.stopped() ||
+             (options_.time > 0 && seconds_since(start) > options_.time / kTimeOfPilot);
+    }));
+  }
 
   // Samples per pixel of the next pass; 0 when the render is done.
   int next_pass(int done, double seconds) const {
@@ -226,6 +194,7 @@ class Renderer {
       control_.progress(done, options_.spp, "spp");
   }
 
+  const Scene& scene_;
   const RenderOptions& options_;
   const RunControl& control_;
   SensorDescription sensor_;
@@ -257,6 +226,7 @@ RenderSummary summarize(const Renderer& renderer) {
   summary.interrupted = renderer.interrupted();
   summary.mean_spp = double(totals.samples) / (double(film.width()) * film.height());
   summary.mean_path_length = double(totals.edges) / std::max<double>(totals.samples, 1);
+  summary.bsdf_share = totals.scatterings ? totals.bsdf_share / totals.scatterings : 1;
   summary.guiding_share = double(totals.guided) / std::max<double>(totals.scatterings, 1);
   summary.estimated_relmse = film.estimated_relmse();
   summary.rays = totals.rays + renderer.preview_rays();

@@ -1,6 +1,6 @@
 #pragma once
 // Stage: path tracing with next-event estimation and MIS; directions by BSDF, illumination guiding
-// [Vorba et al. 2014] or product guiding [Herholz et al. 2016].
+// [Vorba et al. 2014], product guiding [Herholz et al. 2016], or resampling [Talbot et al. 2005].
 
 #include "libguide/base/run_control.h"
 #include "libguide/cache/guide_cache_view.h"
@@ -12,7 +12,16 @@
 
 namespace waylight {
 
-enum class RenderMode { bsdf, illumination, product };
+enum class RenderMode { bsdf, illumination, mixture, product, ris };
+
+inline bool needs_fits(RenderMode mode) {
+  return mode == RenderMode::product || mode == RenderMode::mixture;
+}
+
+// What part of the directions is left to BSDF sampling where there is a guide. learned: per cell,
+// by a small render before (transport/share_pilot.h). automatic: learned, but one half in
+// mode ris.
+enum class ShareRule { automatic, fixed, learned };
 
 // automatic: guided where the mode has a cache, by throughput in mode bsdf.
 enum class RouletteMode { automatic, none, throughput, guided };
@@ -36,16 +45,16 @@ struct RenderOptions {
   int split = 1;  // copies that guided roulette may make of a path at one vertex, 1 .. 20
   PixelEstimateMode pixel_estimate = PixelEstimateMode::cache;
   bool segments = false;  // sum contributions by the number of edges
-  // Share of smooth scattering sampled from the guide, 0..0.99; -1: 0.5 of illumination, which
-  // knows nothing of the BSDF, and 0.7 of product, the best of 0.3 .. 0.9 in two measured
-  // interiors.
-  float guiding_prob = -1;
+  ShareRule share_rule = ShareRule::automatic;
+  float bsdf_share = 0.5f;  // of rule `fixed`, 0.01..1
+  int candidates = 2;       // of mode ris, 1..64
   AovSet aovs;
 
   void validate() const;
 };
 
-// What guides. `guide` may be empty in mode bsdf, `brdf` is needed in mode product only.
+// What guides. `guide` may be empty in mode bsdf, `brdf` is needed in modes product and mixture
+// only.
 struct RenderCaches {
   const BrdfCache* brdf = nullptr;
   GuideCacheView guide;
@@ -60,6 +69,7 @@ struct RenderSummary {
   double mean_path_length = 0;   // edges per camera path, those of its copies included
   double killed_share = 0;       // paths ended by roulette, per path: camera paths and copies
   double copies_per_path = 0;    // made by splitting, per camera path
+  double bsdf_share = 1;         // of BSDF sampling in smooth scattering, mean over all of it
   double guiding_share = 0;      // share of smooth scattering events that had a guide
   double estimated_relmse = 0;   // of the image, from its own variance
   uint64_t invalid_samples = 0;  // NaN or infinite, counted as zero

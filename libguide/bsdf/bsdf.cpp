@@ -171,6 +171,28 @@ bool Bsdf::smooth_transmissive() const {
   return false;
 }
 
+SideShares Bsdf::side_shares(const Vec3& wo) const {
+  SideShares sum;
+  for (int i = 0; i < count_; ++i) {
+    const RoughDielectric* glass = std::get_if<RoughDielectric>(&lobes_[i]);
+    const SideShares s =
+        glass ? glass->side_shares(wo)
+              : SideShares{
+                    luminance(with(lobes_[i], [](const auto& l) { return l.mean_reflectance(); }))};
+    sum.reflected += weights_[i] * s.reflected;
+    sum.transmitted += weights_[i] * s.transmitted;
+  }
+  return sum;
+}
+
+float Bsdf::relative_eta(const Vec3& wo, const Vec3& wi) const {
+  if (wo.z() * wi.z() >= 0) return 1;
+  for (int i = 0; i < count_; ++i)
+    if (const RoughDielectric* glass = std::get_if<RoughDielectric>(&lobes_[i]))
+      return wo.z() > 0 ? glass->eta : 1 / glass->eta;
+  return 1;
+}
+
 void Bsdf::scale(float factor) {
   for (int i = 0; i < count_; ++i) weights_[i] *= factor;
 }

@@ -31,6 +31,10 @@ class Bsdf {
   bool has_smooth() const;           // some lobe has a density
   bool transmissive() const;         // some lobe, delta or smooth, sends light to the other side
   bool smooth_transmissive() const;  // some lobe with a density does
+  // How the smooth part divides light that is equal on both sides, for wo; rough.
+  SideShares side_shares(const Vec3& wo) const;
+  // n(side of wi) / n(side of wo) for a direction of the smooth part; 1 on the side of wo.
+  float relative_eta(const Vec3& wo, const Vec3& wi) const;
   // A concrete lobe spares the copy of a variant. A weight of zero adds nothing.
   template <typename L>
   void add(const L& lobe, float weight) {

@@ -29,6 +29,11 @@ struct BsdfSample {
   float eta = 1;  // n(side of wi) / n(side of wo) when refracted, else 1
 };
 
+// Shares of light, luminance in [0, 1], that come from the side of wo and from the other.
+struct SideShares {
+  float reflected = 0, transmitted = 0;
+};
+
 // Radiance travels against light (camera paths), importance with it (photons). Refraction scales
 // radiance by 1/eta^2 and leaves power unchanged [Veach 1997, section 5.2].
 enum class TransportMode { radiance, importance };

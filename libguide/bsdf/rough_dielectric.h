@@ -41,6 +41,15 @@ struct RoughDielectric {
     return f * specular_reflectance + (1 - f) * specular_transmittance;
   }
 
+  // As of a smooth surface: the lobe is taken to be narrow.
+  SideShares side_shares(const Vec3& wo) const {
+    const float relative = wo.z() > 0 ? eta : 1 / eta;
+    const float f = fresnel_dielectric(std::abs(wo.z()), relative).reflectance;
+    const float scale = mode == TransportMode::radiance ? 1 / sqr(relative) : 1;
+    return {f * luminance(specular_reflectance),
+            (1 - f) * scale * luminance(specular_transmittance)};
+  }
+
   EvalPdf evaluate(const Vec3& wo, const Vec3& wi) const {
     const float sides = wo.z() * wi.z();
     if (sides == 0) return {};

@@ -73,6 +73,17 @@ GaussianProduct::GaussianProduct(const GaussianMixture& first, const GaussianMix
   inverse_z_ = 1 / z;
 }
 
+float GaussianProduct::resolved_share(const GaussianMixture& of, float variance) const {
+  const Lanes det = difference_of_products(of.cov_xx_, of.cov_yy_, of.cov_xy_, of.cov_xy_);
+  const Lanes width = lanes_sqrt(lanes_max(det, Lanes{})) * (1 / variance);
+  Lanes share = row_sum_;  // of the product by lobe of the mixture
+  if (&of == &lanes_) {
+    share = Lanes{};
+    for (int i = 0; i < rows_.count_; ++i) share += weights_[i];
+  }
+  return lanes_sum(share * lanes_min(width, splat(1))) * inverse_z_;
+}
+
 std::optional<Vec2> GaussianProduct::sample(float u, const Vec2& u2) const {
   float target = u * z_;
   const int i = choose(row_sum_, target, rows_.count_);

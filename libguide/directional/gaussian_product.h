@@ -18,6 +18,10 @@ class GaussianProduct {
   // all means coincided: sample and pdf must not be called then; fall back to another density.
   bool valid() const { return z_ > 0; }
   float z() const { return z_; }
+  // The share of the product that comes from lobes of one of its mixtures at least as wide as
+  // `variance`, the square root of the determinant of their covariance; narrower ones count in
+  // proportion. In [0, 1].
+  float resolved_share(const GaussianMixture& of, float variance) const;
 
   float eval(const Vec2& y) const { return pdf(y); }
   std::optional<Vec2> sample(float u, const Vec2& u2) const;  // empty: outside the domain

@@ -1,11 +1,12 @@
 #include "libguide/guiding/direction_sampler.h"
 
-#include "libguide/directional/frame_carry.h"
-#include "libguide/math/warp.h"
-
 namespace waylight {
 namespace {
 
+// Of either side's chance where both are known: irradiance tells little of what a lobe meets.
+constexpr float kMinSideProb = 0.1f;
+// A guide for less than this share of the BSDF is not worth its price.
+constexpr float kMinKnown = 0.02f;
 constexpr float kMinMeanCosine = 0.05f;
 
 // Mean of cos = 1 - |y|^2 over lobes on the disk, about the normal that their frame stands on.
@@ -16,53 +17,88 @@ float mean_cosine(std::span<const GaussianComponent> lobes) {
   return std::max(cosine, kMinMeanCosine);
 }
 
+void open(std::optional<CellGuide>& guide, const GuideCacheView& cache, const Vec3& position,
+          const Vec3& normal) {
+  const CacheCell* cell = cache.query(position, normal);
+  if (!cell) return;
+  guide.emplace(cache, *cell);
+  if (!guide->valid()) guide.reset();
+}
+
+float irradiance(const std::optional<CellGuide>& guide) {
+  return guide ? guide->cell().irradiance : 0;
+}
+
 }  // namespace
 
 DirectionSampler::DirectionSampler(const Scene& scene, const GuidingCaches& caches,
-                                   DirectionGuide guide, float guiding_prob, const SurfacePoint& at,
+                                   const DirectionOptions& options, const SurfacePoint& at,
                                    const Vec3& wo, TransportMode mode)
-    : resolved_(scene.bsdf(at, wo, mode)),
+    : options_(options),
+      resolved_(scene.bsdf(at, wo, mode)),
       ng_(at.ng),
       wo_local_(resolved_.frame.to_local(wo)),
       ng_side_(resolved_.frame.n.dot(at.ng) >= 0 ? 1.0f : -1.0f),
       has_smooth_(resolved_.bsdf.has_smooth()),
-      delta_prob_(resolved_.bsdf.delta_prob(wo_local_)),
-      guiding_prob_(guiding_prob) {
-  if (guide == DirectionGuide::none || !has_smooth_ || delta_prob_ >= 1 || wo_local_.z() <= 0 ||
-      resolved_.bsdf.smooth_transmissive())
-    guiding_prob_ = 0;
-  if (guiding_prob_ > 0) prepare_guide(caches, guide, at, wo);
+      delta_prob_(resolved_.bsdf.delta_prob(wo_local_)) {
+  if (options.guide != DirectionGuide::none && has_smooth_ && delta_prob_ < 1)
+    prepare_guide(caches, at, wo);
 }
 
-void DirectionSampler::prepare_guide(const GuidingCaches& caches, DirectionGuide guide,
-                                     const SurfacePoint& at, const Vec3& wo) {
+void DirectionSampler::prepare_guide(const GuidingCaches& caches, const SurfacePoint& at,
+                                     const Vec3& wo) {
   const Vec3 normal = at.ns.dot(wo) < 0 ? Vec3(-at.ns) : at.ns;
-  const CacheCell* cell = caches.guide().query(at.p, normal);
-  if (!cell) {
-    guiding_prob_ = 0;
-    return;
+  if (resolved_.bsdf.smooth_transmissive()) {
+    known_ = prepare_sides(caches, at, normal);
+  } else if (wo_local_.z() > 0) {
+    open(near_, caches.guide(), at.p, normal);
+    irradiance_ = irradiance(near_);
+    if (near_ &&
+        (options_.guide == DirectionGuide::product || options_.guide == DirectionGuide::mixture))
+      known_ = prepare_fit(caches, at);
+    if (known_ < kMinKnown) near_.reset();
   }
-  guiding_prob_ *= guiding_trust(*cell);
-  irradiance_ = cell->irradiance;
-  cell_frame_ = Frame(cell->normal);
-  light_ = caches.guide().mixture(*cell);
-  if (light_.count() == 0 || (guide == DirectionGuide::product && !prepare_product(caches, at)))
-    guiding_prob_ = 0;
+  if (!cell()) return;
+  const float guided = known_ * guiding_trust(*cell());
+  bsdf_share_ = 1 - guided * (1 - caches.bsdf_share(*cell(), options_.bsdf_share));
 }
 
-// False when the fitted BSDF and the light do not overlap: BSDF sampling is left alone then.
-// A material without fit keeps the light's mixture as its guide.
-bool DirectionSampler::prepare_product(const GuidingCaches& caches, const SurfacePoint& at) {
+// The side is chosen by what it should add: the BSDF's share of reflection or transmission times
+// the cell's irradiance. A side without cell is left to BSDF sampling. Returns the share of the
+// BSDF on the sides that are known.
+float DirectionSampler::prepare_sides(const GuidingCaches& caches, const SurfacePoint& at,
+                                      const Vec3& normal) {
+  open(near_, caches.guide(), at.p, normal);
+  open(far_, caches.guide(), at.p, -normal);
+  const SideShares shares = resolved_.bsdf.side_shares(wo_local_);
+  const float near = shares.reflected * irradiance(near_);
+  const float far = shares.transmitted * irradiance(far_);
+  if (near_ && far_) {
+    near_prob_ = near + far > 0 ? near / (near + far) : 0.5f;
+    near_prob_ = std::clamp(near_prob_, kMinSideProb, 1 - kMinSideProb);
+    irradiance_ = near + far;
+    return 1;
+  }
+  near_prob_ = near_ ? 1.0f : 0.0f;
+  const float total = shares.reflected + shares.transmitted;
+  return total > 0 ? (near_ ? shares.reflected : shares.transmitted) / total : 0;
+}
+
+// The share of the BSDF that the guide is for. A material without fit keeps the light's
+// mixture as its guide.
+float DirectionSampler::prepare_fit(const GuidingCaches& caches, const SurfacePoint& at) {
   const FittedLobe lobe = caches.brdf_lobe(at.material, ng_side_ < 0, wo_local_, at.uv);
-  if (lobe.components.empty()) return true;
-  const Frame& shading = resolved_.frame;
-  Mat3 to_cell;
-  to_cell << cell_frame_.to_local(shading.s), cell_frame_.to_local(shading.t),
-      cell_frame_.to_local(shading.n);
-  brdf_ = GaussianMixture(lobe.components).carried(to_cell * lobe.to_shading);
-  product_.emplace(brdf_, light_);
-  reflected_per_irradiance_ = product_->z() / (2 * mean_cosine(lobe.components));
-  return product_->valid();
+  if (lobe.components.empty()) return 1;
+  Mat3 to_world;
+  to_world << resolved_.frame.s, resolved_.frame.t, resolved_.frame.n;
+  to_world *= lobe.to_shading;
+  if (options_.guide == DirectionGuide::mixture) {
+    near_->mix(lobe.components, to_world);
+    return 1;
+  }
+  const float resolved = near_->multiply(lobe.components, to_world);
+  reflected_per_irradiance_ = near_->product_z() / (2 * mean_cosine(lobe.components));
+  return resolved;
 }
 
 bool DirectionSampler::same_side(const Vec3& wi, const Vec3& wi_local) const {
@@ -74,20 +110,23 @@ EvalPdf DirectionSampler::evaluate(const Vec3& wi) const {
   if (!same_side(wi, local)) return {};
   const EvalPdf e = resolved_.bsdf.evaluate(wo_local_, local);
   if (is_black(e.value)) return {};
-  return {e.value, density(e.pdf, wi)};
+  return {e.value, density(e.pdf, guide_pdf(wi))};
 }
 
-float DirectionSampler::density(float bsdf_pdf, const Vec3& wi) const {
-  const float guided = guiding_prob_ > 0 ? guiding_prob_ * guide_pdf(wi) : 0.0f;
-  return (1 - delta_prob_) * ((1 - guiding_prob_) * bsdf_pdf + guided);
+float DirectionSampler::density(float bsdf_pdf, float guide_pdf) const {
+  return (1 - delta_prob_) * (bsdf_share_ * bsdf_pdf + (1 - bsdf_share_) * guide_pdf);
 }
 
-std::optional<DirectionSample> DirectionSampler::sample(float u, float u_lobe,
-                                                        const Vec2& u2) const {
+std::optional<DirectionSample> DirectionSampler::sample(Sampler& sampler) const {
+  const float u = sampler.next(), u_lobe = sampler.next();
+  const Vec2 u2 = sampler.next_2d();
   if (u < delta_prob_) return sample_delta(u / delta_prob_);
   if (!has_smooth_) return std::nullopt;
-  const float rescaled = (u - delta_prob_) / (1 - delta_prob_);
-  return sample_smooth(std::min(rescaled, kOneMinusEpsilon), u_lobe, u2);
+  const float rescaled = std::min((u - delta_prob_) / (1 - delta_prob_), kOneMinusEpsilon);
+  if (guided() && options_.guide == DirectionGuide::resampled) return resample(rescaled, sampler);
+  const std::optional<Candidate> c = sample_smooth(rescaled, u_lobe, u2);
+  if (!c) return std::nullopt;
+  return finish(*c);
 }
 
 std::optional<DirectionSample> DirectionSampler::sample_delta(float u) const {
@@ -99,39 +138,46 @@ std::optional<DirectionSample> DirectionSampler::sample_delta(float u) const {
   return DirectionSample{wi, weight, 0, true, s->eta, weight};
 }
 
-std::optional<DirectionSample> DirectionSampler::sample_smooth(float u, float u_lobe,
-                                                               const Vec2& u2) const {
-  if (u >= guiding_prob_) {
+std::optional<DirectionSampler::Candidate> DirectionSampler::sample_smooth(float u, float u_lobe,
+                                                                           const Vec2& u2) const {
+  if (u >= 1 - bsdf_share_) {
     const std::optional<BsdfSample> s = resolved_.bsdf.sample(wo_local_, u_lobe, u2);
     if (!s) return std::nullopt;
-    return weighted(resolved_.frame.to_world(s->wi), s->wi, {s->weight * s->pdf, s->pdf}, s->eta);
+    return candidate(resolved_.frame.to_world(s->wi), s->wi, {s->weight * s->pdf, s->pdf}, s->eta);
   }
   const std::optional<Vec3> wi = sample_guide(u_lobe, u2);
   if (!wi) return std::nullopt;
   const Vec3 local = resolved_.frame.to_local(*wi);
-  return weighted(*wi, local, resolved_.bsdf.evaluate(wo_local_, local), 1);
+  return candidate(*wi, local, resolved_.bsdf.evaluate(wo_local_, local), 0);
 }
 
-// bsdf: value and density of BSDF sampling for the direction.
-std::optional<DirectionSample> DirectionSampler::weighted(const Vec3& wi, const Vec3& local,
-                                                          const EvalPdf& bsdf, float eta) const {
-  if (!same_side(wi, local)) return std::nullopt;
-  const float pdf = density(bsdf.pdf, wi);
-  if (!(pdf > 0) || is_black(bsdf.value)) return std::nullopt;
-  const float bsdf_pdf = (1 - delta_prob_) * bsdf.pdf;
-  const Color bsdf_weight = bsdf_pdf > 0 ? Color(bsdf.value / bsdf_pdf) : Color(Color::Ones());
-  return DirectionSample{wi, bsdf.value / pdf, pdf, false, eta, bsdf_weight};
+// eta: 0 where it is not known.
+std::optional<DirectionSampler::Candidate> DirectionSampler::candidate(const Vec3& wi,
+                                                                       const Vec3& local,
+                                                                       const EvalPdf& bsdf,
+                                                                       float eta) const {
+  if (!same_side(wi, local) || is_black(bsdf.value)) return std::nullopt;
+  const float guide = guided() ? guide_pdf(wi) : 0.0f, pdf = density(bsdf.pdf, guide);
+  if (!(pdf > 0)) return std::nullopt;
+  if (eta == 0) eta = resolved_.bsdf.relative_eta(wo_local_, local);
+  return Candidate{wi, bsdf, std::abs(local.z()), guide, pdf, eta};
+}
+
+DirectionSample DirectionSampler::finish(const Candidate& c) const {
+  const float bsdf_pdf = (1 - delta_prob_) * c.bsdf.pdf;
+  const Color bsdf_weight = bsdf_pdf > 0 ? Color(c.bsdf.value / bsdf_pdf) : Color(Color::Ones());
+  const float guide_pdf = known_ * c.guide_pdf + (1 - known_) * c.bsdf.pdf;
+  return {c.wi, c.bsdf.value / c.pdf, c.pdf, false, c.eta, bsdf_weight, c.bsdf.pdf, guide_pdf};
 }
 
 std::optional<Vec3> DirectionSampler::sample_guide(float u, const Vec2& u2) const {
-  const std::optional<Vec2> y = product_ ? product_->sample(u, u2) : light_.sample(u, u2);
-  if (!y) return std::nullopt;
-  return cell_frame_.to_world(disk_to_direction(*y));
+  if (u < near_prob_) return near_->sample(u / near_prob_, u2);
+  return far_->sample((u - near_prob_) / (1 - near_prob_), u2);
 }
 
 float DirectionSampler::guide_pdf(const Vec3& wi) const {
-  const Vec2 y = direction_to_disk(cell_frame_.to_local(wi));
-  return (product_ ? product_->pdf(y) : light_.pdf(y)) / kSteradianPerDiskArea;
+  const float near = near_ ? near_prob_ * near_->pdf(wi) : 0.0f;
+  return far_ ? near + (1 - near_prob_) * far_->pdf(wi) : near;
 }
 
 }  // namespace waylight

@@ -9,6 +9,7 @@ void PixelSums::add(const PathRecord& path, float filter_weight) {
   edges += path.edges;
   scatterings += path.scatterings;
   guided += path.guided;
+  bsdf_share += path.bsdf_share;
   rays += path.rays;
   killed += path.killed;
   copies += path.copies;
@@ -108,6 +109,7 @@ FilmTotals Film::totals() const {
     totals.edges += pixel.edges;
     totals.scatterings += pixel.scatterings;
     totals.guided += pixel.guided;
+    totals.bsdf_share += pixel.bsdf_share;
     totals.rays += pixel.rays;
     totals.killed += pixel.killed;
     totals.copies += pixel.copies;

@@ -20,6 +20,7 @@ struct PixelSums {
   uint32_t samples = 0;
   uint32_t invalid = 0;
   uint64_t edges = 0, scatterings = 0, guided = 0, rays = 0, killed = 0, copies = 0;
+  double bsdf_share = 0;  // sum over the scatterings
 
   // filter_weight: of reconstruction by filter importance sampling.
   void add(const PathRecord& path, float filter_weight);
@@ -31,6 +32,7 @@ struct PixelSums {
 struct FilmTotals {
   uint64_t samples = 0, edges = 0, scatterings = 0, guided = 0, rays = 0, killed = 0, copies = 0;
   uint64_t invalid = 0;
+  double bsdf_share = 0;
 };
 
 class Film {

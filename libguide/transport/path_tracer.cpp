@@ -92,8 +92,7 @@ bool PathTracer::advance(Walk& walk, State& state) const {
   if (state.edges >= max_depth) return false;
 
   const Vec3 wo = -state.ray.direction;
-  const DirectionSampler directions(scene_, caches_, options_.guide, options_.guiding_prob, *at,
-                                    wo);
+  const DirectionSampler directions(scene_, caches_, options_.directions, *at, wo);
   if (state.edges == 1) {
     walk.record.albedo = directions.resolved().bsdf.mean_reflectance();
     walk.record.normal = directions.resolved().frame.n;
@@ -194,13 +193,16 @@ bool PathTracer::scatter_copies(Walk& walk, State& state, int copies, const Surf
 
 bool PathTracer::scatter(Walk& walk, State& state, const SurfacePoint& at,
                          const DirectionSampler& directions) const {
-  const float u = state.sampler.next(), u_lobe = state.sampler.next();
-  const std::optional<DirectionSample> next = directions.sample(u, u_lobe, state.sampler.next_2d());
+  const std::optional<DirectionSample> next = directions.sample(state.sampler);
   if (directions.has_smooth()) {
     ++walk.record.scatterings;
     walk.record.guided += directions.guided();
+    walk.record.bsdf_share += directions.bsdf_share();
   }
   if (!next) return false;
+  if (walk.context.guided && directions.cell() && !next->is_delta)
+    walk.context.guided->push_back({caches_.index(*directions.cell()), next->bsdf_pdf,
+                                    next->guide_pdf, next->pdf, luminance(walk.record.radiance)});
   state.throughput *= next->weight;
   state.roulette_throughput *= next->bsdf_weight.min(1.0f);
   state.eta_scale *= next->eta * next->eta;

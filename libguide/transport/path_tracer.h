@@ -1,6 +1,8 @@
 #pragma once
 // One camera path and its copies, with next-event estimation; the same loop for every mode.
 
+#include <vector>
+
 #include "libguide/base/sampler.h"
 #include "libguide/guiding/direction_sampler.h"
 #include "libguide/scene/scene.h"
@@ -21,8 +23,7 @@ enum class Roulette { none, throughput, guided };
 inline constexpr int kMaxSplit = 20, kMaxWaiting = 32, kMaxCopies = 64;
 
 struct PathTracerOptions {
-  DirectionGuide guide = DirectionGuide::none;
-  float guiding_prob = 0.5f;
+  DirectionOptions directions;
   Roulette roulette = Roulette::throughput;
   int max_split = 1;           // copies at one vertex under guided roulette, 1 .. kMaxSplit
   int max_depth = -1;          // path edges; -1 no limit
@@ -30,11 +31,20 @@ struct PathTracerOptions {
   bool hide_emitters = false;  // emitters and environment are invisible to the camera itself
 };
 
+// A guided vertex of a path, for learning (bsdf_shares.h).
+struct GuidedVertex {
+  uint32_t cell;
+  float bsdf_pdf, guide_pdf, pdf;
+  float radiance_before;  // luminance of what the path had found when it left the vertex
+};
+
 // What is known of a path before it is traced.
 struct PathContext {
   float pixel_estimate = 0;  // I, luminance; 0: as caches have it at the first vertex with one
   float filter_weight = 1;   // of the contributions to `segments`
   SegmentSums* segments = nullptr;
+  std::vector<GuidedVertex>* guided =
+      nullptr;  // where guided vertices are appended; without splits
 };
 
 // What one camera path found, with all its copies.
@@ -48,6 +58,7 @@ struct PathRecord {
   uint32_t copies = 0;       // that splitting added
   uint32_t scatterings = 0;  // smooth ones
   uint32_t guided = 0;       // smooth ones that had a guide
+  float bsdf_share = 0;      // sum of the shares of BSDF sampling at smooth ones
   uint32_t rays = 0;
 };
 

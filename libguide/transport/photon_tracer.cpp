@@ -7,7 +7,7 @@ constexpr int kMaxCrossings = 1000;  // transparent surfaces in a row before a p
 
 constexpr float kMaxCorrection = 10;
 
-constexpr float kGuidingProb = 0.5f;  // share of scattering by importance, where it is known
+constexpr float kBsdfShare = 0.5f;  // the rest is scattered by importance, where it is known
 
 // A photon goes on for certain while it promises at least a third of what the average photon does:
 // the lower end of the weight window of [Vorba, Krivanek 2016] with s = 5.
@@ -56,15 +56,16 @@ void PhotonTracer::trace(Sampler& sampler, PhotonRecords* records) const {
   }
   const TransportMode mode =
       options_.quantity == Quantity::radiance ? TransportMode::importance : TransportMode::radiance;
-  const DirectionGuide guide = emission_ ? DirectionGuide::illumination : DirectionGuide::none;
+  const DirectionOptions guided{emission_ ? DirectionGuide::illumination : DirectionGuide::none,
+                                kBsdfShare};
   for (;;) {
     const std::optional<SurfacePoint> at = next_surface(*particle, sampler);
     if (!at) {
       store_escape(*particle, records);
       return;
     }
-    const DirectionSampler directions(scene_, guide_, guide, kGuidingProb, *at,
-                                      -particle->ray.direction, mode);
+    const DirectionSampler directions(scene_, guide_, guided, *at, -particle->ray.direction,
+                                      mode);
     if (stores(*particle, *at, directions.resolved().bsdf)) store(*particle, *at, records);
     if (static_cast<int>(particle->depth) + 1 >= options_.max_depth) {
       ++counts.too_deep;
@@ -161,8 +162,7 @@ bool PhotonTracer::survives_guided(Particle& particle, float importance, Sampler
 bool PhotonTracer::scatter(Particle& particle, const SurfacePoint& at,
                            const DirectionSampler& directions, bool by_importance,
                            Sampler& sampler) const {
-  const float u = sampler.next(), u_lobe = sampler.next();
-  const std::optional<DirectionSample> s = directions.sample(u, u_lobe, sampler.next_2d());
+  const std::optional<DirectionSample> s = directions.sample(sampler);
   if (!s) return false;
   const float correction = camera_ ? 1.0f
                                    : adjoint_correction(directions.resolved().frame, at.ng,

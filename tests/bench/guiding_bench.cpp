@@ -18,8 +18,7 @@ namespace {
 struct Vertex {
   SurfacePoint at;
   Vec3 wo;
-  float u, u_lobe;
-  Vec2 u2;
+  Sampler sampler;
 };
 
 struct Trained {
@@ -56,7 +55,7 @@ struct Trained {
     Sampler s(1, 1, i);
     const Vec3 wo = Frame(photons[i].normal).to_world(square_to_cosine_hemisphere(s.next_2d()));
     const auto at = scene.intersect({photons[i].position + 1e-2f * wo, -wo});
-    if (at) vertices.push_back({*at, wo, s.next(), s.next(), s.next_2d()});
+    if (at) vertices.push_back({*at, wo, s});
   }
 };
 
@@ -71,19 +70,21 @@ void vertex_sample(benchmark::State& state, DirectionGuide guide) {
   size_t i = 0;
   for (auto _ : state) {
     const Vertex& v = t.vertices[i++ % t.vertices.size()];
-    const DirectionSampler directions(t.scene, t.caches, guide, 0.5f, v.at, v.wo);
-    benchmark::DoNotOptimize(directions.sample(v.u, v.u_lobe, v.u2));
+    const DirectionSampler directions(t.scene, t.caches, {guide, 0.5f}, v.at, v.wo);
+    Sampler sampler = v.sampler;
+    benchmark::DoNotOptimize(directions.sample(sampler));
   }
 }
 BENCHMARK_CAPTURE(vertex_sample, bsdf, DirectionGuide::none);
 BENCHMARK_CAPTURE(vertex_sample, illumination, DirectionGuide::illumination);
 BENCHMARK_CAPTURE(vertex_sample, product, DirectionGuide::product);
+BENCHMARK_CAPTURE(vertex_sample, ris, DirectionGuide::resampled);
 
 // One more density at the same vertex, as next-event estimation asks for.
 void vertex_density(benchmark::State& state, DirectionGuide guide) {
   const Trained& t = trained();
   const Vertex& v = t.vertices[0];
-  const DirectionSampler directions(t.scene, t.caches, guide, 0.5f, v.at, v.wo);
+  const DirectionSampler directions(t.scene, t.caches, {guide, 0.5f}, v.at, v.wo);
   std::vector<Vec3> wi;
   for (int i = 0; i < 1024; ++i)
     wi.push_back(directions.resolved().frame.to_world(

@@ -79,11 +79,9 @@ struct Rays {
       nearest.push_back(ray);
       const std::optional<SurfacePoint> at = scene().intersect(ray);
       if (!at) return;
-      const DirectionSampler directions(scene(), none, DirectionGuide::none, 0, *at,
-                                        -ray.direction);
+      const DirectionSampler directions(scene(), none, {}, *at, -ray.direction);
       add_shadow(*at, directions, sampler);
-      const float u = sampler.next(), u_lobe = sampler.next();
-      const std::optional<DirectionSample> next = directions.sample(u, u_lobe, sampler.next_2d());
+      const std::optional<DirectionSample> next = directions.sample(sampler);
       if (!next) return;
       ray = scene().spawn_ray(*at, next->wi);
     }

@@ -59,7 +59,7 @@ class SlowSplitting : public ::testing::Test {
     const GuidingCaches caches(&brdf, GuideCacheView(trained->guide),
                                scene->description().materials);
     PathTracerOptions options;
-    options.guide = DirectionGuide::product;
+    options.directions.guide = DirectionGuide::product;
     options.roulette = Roulette::guided;
     options.max_split = kMaxSplit;
     const PathTracer tracer(*scene, caches, options);

@@ -20,20 +20,34 @@ struct GuidedFloor {
   GuidingCaches caches;
 
   GuidedFloor(SceneDescription description, const Vec3& cell_normal,
-              std::vector<GaussianComponent> light)
+              std::vector<GaussianComponent> light, int elevations = 64)
       : scene(std::move(description)) {
     BrdfFitOptions options;
-    options.elevations = 64;
+    options.elevations = elevations;
     brdf = fit_brdfs(scene.description(), options, {}).cache;
     guide.scene_bounds = scene.bounds();
     guide.nodes.push_back({});
+    add_cell(cell_normal, light, 1);
+    caches = GuidingCaches(&brdf, GuideCacheView(guide), scene.description().materials);
+  }
+
+  // A second cell for normals that point down.
+  void add_cell_below(const Vec3& cell_normal, const std::vector<GaussianComponent>& light,
+                      float irradiance) {
+    guide.nodes = {{0, 1, kNormalAxis + 2}, {0, 1, kLeafAxis}, {0, 0, kLeafAxis}};
+    add_cell(cell_normal, light, irradiance);
+    caches = GuidingCaches(&brdf, GuideCacheView(guide), scene.description().materials);
+  }
+
+  void add_cell(const Vec3& normal, const std::vector<GaussianComponent>& light, float irradiance) {
     CacheCell cell;
-    cell.normal = cell_normal.normalized();
+    cell.normal = normal.normalized();
     cell.effective_samples = 1000;
+    cell.irradiance = irradiance;
+    cell.first_component = static_cast<uint32_t>(guide.components.size());
     cell.component_count = static_cast<uint32_t>(light.size());
     guide.cells.push_back(cell);
-    guide.components = std::move(light);
-    caches = GuidingCaches(&brdf, GuideCacheView(guide), scene.description().materials);
+    guide.components.insert(guide.components.end(), light.begin(), light.end());
   }
 
   SurfacePoint floor_from(const Vec3& wo) const {
@@ -88,10 +102,10 @@ Vec3 from(float degrees, float azimuth) {
           std::cos(theta)};
 }
 
-void expect_valid(const GuidedFloor& floor, DirectionGuide guide, float prob, const Vec3& wo,
+void expect_valid(const GuidedFloor& floor, DirectionGuide guide, float bsdf_share, const Vec3& wo,
                   const std::string& name) {
   const SurfacePoint at = floor.floor_from(wo);
-  const DirectionSampler directions(floor.scene, floor.caches, guide, prob, at, wo);
+  const DirectionSampler directions(floor.scene, floor.caches, {guide, bsdf_share}, at, wo);
   ASSERT_TRUE(directions.guided()) << name;
   DensityCheck check;
   check.tests = 120;
@@ -102,8 +116,7 @@ void expect_valid(const GuidedFloor& floor, DirectionGuide guide, float prob, co
   expect_valid_density(
       testing::Sphere{}, name,
       [&](Sampler& sampler) -> std::optional<Vec3> {
-        const float u = sampler.next(), u_lobe = sampler.next();
-        const std::optional<DirectionSample> s = directions.sample(u, u_lobe, sampler.next_2d());
+        const std::optional<DirectionSample> s = directions.sample(sampler);
         if (!s || s->is_delta) return std::nullopt;
         return s->wi;
       },
@@ -113,20 +126,20 @@ void expect_valid(const GuidedFloor& floor, DirectionGuide guide, float prob, co
 TEST(DirectionSamplerSlow, GuidedDensitiesAreWhatTheSamplerMakes) {
   for (const auto& [name, model] : materials()) {
     const GuidedFloor floor(floor_of(model), {0.3f, -0.2f, 1}, some_light());
-    for (const DirectionGuide guide : {DirectionGuide::illumination, DirectionGuide::product})
+    for (const DirectionGuide guide :
+         {DirectionGuide::illumination, DirectionGuide::product, DirectionGuide::mixture})
       for (const Vec3& wo : {from(5, 0), from(50, 2), from(80, -1)})
-        expect_valid(
-            floor, guide, 0.5f, wo,
-            fmt::format("{} {} z = {:.2f}", name,
-                        guide == DirectionGuide::product ? "product" : "illumination", wo.z()));
+        expect_valid(floor, guide, 0.5f, wo,
+                     fmt::format("{} guide {} z = {:.2f}", name, static_cast<int>(guide), wo.z()));
   }
 }
 
-TEST(DirectionSamplerSlow, DensitiesHoldAtTheEndsOfTheGuidingProbability) {
+TEST(DirectionSamplerSlow, DensitiesHoldAtTheEndsOfTheShareOfBsdfSampling) {
   const GuidedFloor floor(floor_of(metal(0.2f, 0.2f, MicrofacetDistribution::ggx)), {0, 0.1f, 1},
                           some_light());
-  for (const float prob : {0.01f, 0.99f})
-    expect_valid(floor, DirectionGuide::product, prob, from(40, 1), fmt::format("prob {}", prob));
+  for (const float share : {0.01f, 0.99f})
+    expect_valid(floor, DirectionGuide::product, share, from(40, 1),
+                 fmt::format("share {}", share));
 }
 
 TEST(DirectionSamplerSlow, ABackWithAFitOfItsOwnIsSampledByIt) {
@@ -150,43 +163,106 @@ TEST(DirectionSamplerSlow, ABackWithAFitOfItsOwnIsSampledByIt) {
 // Directions by guide: the mean of the weight is the albedo whatever guides.
 double mean_weight(const GuidedFloor& floor, DirectionGuide guide, const Vec3& wo) {
   constexpr int kCount = 1 << 16;
-  const DirectionSampler directions(floor.scene, floor.caches, guide, 0.5f, floor.floor_from(wo),
+  const DirectionSampler directions(floor.scene, floor.caches, {guide, 0.5f}, floor.floor_from(wo),
                                     wo);
   double sum = 0;
   for (int i = 0; i < kCount; ++i) {
     Sampler sampler(9, 9, i);
-    const float u = sampler.next(), u_lobe = sampler.next();
-    const std::optional<DirectionSample> s = directions.sample(u, u_lobe, sampler.next_2d());
+    const std::optional<DirectionSample> s = directions.sample(sampler);
     if (s) sum += s->weight.y() / kCount;
   }
   return sum;
+}
+
+// A sheet of ground glass, seen from the side of its normal or, turned over, from inside the glass.
+SceneDescription glass_floor(float alpha, bool turned) {
+  RoughDielectricMaterial glass;
+  glass.alpha_u = glass.alpha_v = Texture(alpha);
+  SceneDescription scene;
+  const int material = testing::add_material(scene, "glass", glass);
+  const Vec3 x(40, 0, 0), y(0, 40, 0);
+  testing::add_shape(scene, testing::rectangle({-20, -20, 0}, turned ? y : x, turned ? x : y),
+                     material);
+  return scene;
+}
+
+std::vector<GaussianComponent> light_from_below() {
+  return {{0.7f, -0.4f, 0.2f, 0.02f, 0.005f, 0.03f}, {0.3f, 0.1f, 0.6f, 0.01f, 0, 0.02f}};
+}
+
+TEST(DirectionSamplerSlow, RoughGlassIsGuidedOverBothHemispheres) {
+  for (const float alpha : {0.4f, 0.1f})
+    for (const bool turned : {false, true}) {
+      GuidedFloor floor(glass_floor(alpha, turned), {0.3f, -0.2f, 1}, some_light());
+      floor.add_cell_below({0.1f, 0.2f, -1}, light_from_below(), 3);
+      for (const DirectionGuide guide : {DirectionGuide::illumination, DirectionGuide::product})
+        expect_valid(floor, guide, 0.4f, from(40, 1),
+                     fmt::format("glass {} turned {}", alpha, turned));
+      for (const DirectionGuide guide : {DirectionGuide::illumination, DirectionGuide::resampled})
+        EXPECT_NEAR(mean_weight(floor, guide, from(40, 1)),
+                    mean_weight(floor, DirectionGuide::none, from(40, 1)), 0.03);
+    }
+}
+
+TEST(DirectionSamplerSlow, RoughGlassWithACellOnOneSideLeavesTheOtherToBsdfSampling) {
+  GuidedFloor floor(glass_floor(0.3f, false), {0, 0, 1}, some_light());
+  expect_valid(floor, DirectionGuide::illumination, 0.2f, from(40, 1), "one side");
+  const Vec3 wo = from(40, 1);
+  const DirectionSampler directions(floor.scene, floor.caches, {DirectionGuide::illumination, 0.2f},
+                                    floor.floor_from(wo), wo);
+  EXPECT_GT(directions.bsdf_share(), 0.9f);  // glass of index 1.5 reflects a twentieth
+}
+
+// The shading normal leaves both the surface's and the cell's.
+TEST(DirectionSamplerSlow, NormalMapsAreGuidedInTheFrameOfTheShadingNormal) {
+  for (const auto& [name, model] : materials()) {
+    SceneDescription scene;
+    const int nested = testing::add_material(scene, "nested", model);
+    const Color tilted = 0.5f * (Color(0.35f, -0.2f, 0.9f) + 1);
+    const int mapped =
+        testing::add_material(scene, "mapped", NormalMapMaterial{nested, Texture(tilted)});
+    const int floor_material =
+        testing::add_material(scene, "floor", TwoSidedMaterial{mapped, mapped});
+    testing::add_shape(scene, testing::rectangle({-20, -20, 0}, {40, 0, 0}, {0, 40, 0}),
+                       floor_material);
+    const GuidedFloor floor(std::move(scene), {-0.2f, 0.1f, 1}, some_light());
+    const Vec3 wo = from(40, 1);
+    EXPECT_LT(floor.scene.bsdf(floor.floor_from(wo), wo, TransportMode::radiance).frame.n.z(),
+              0.95f);
+    expect_valid(floor, DirectionGuide::product, 0.3f, wo, name + " mapped");
+    EXPECT_NEAR(mean_weight(floor, DirectionGuide::product, wo),
+                mean_weight(floor, DirectionGuide::none, wo), 0.01)
+        << name;
+  }
 }
 
 TEST(DirectionSamplerSlow, TheReflectedShareDoesNotDependOnTheGuide) {
   for (const auto& [name, model] : materials()) {
     const GuidedFloor floor(floor_of(model), {0.3f, -0.2f, 1}, some_light());
     const double expected = mean_weight(floor, DirectionGuide::none, from(50, 2));
-    for (const DirectionGuide guide : {DirectionGuide::illumination, DirectionGuide::product})
+    for (const DirectionGuide guide : {DirectionGuide::illumination, DirectionGuide::product,
+                                       DirectionGuide::mixture, DirectionGuide::resampled})
       EXPECT_NEAR(mean_weight(floor, guide, from(50, 2)), expected, 0.01) << name;
   }
 }
 
 // E[(f L / p)^2] / E[f L / p]^2 - 1 of samples of one vertex, L the light's own mixture.
-double relative_variance(const GuidedFloor& floor, DirectionGuide guide, const Vec3& wo) {
+double relative_variance(const GuidedFloor& floor, DirectionGuide guide, const Vec3& wo,
+                         int candidates = 2, float share = 0.1f) {
   constexpr int kCount = 1 << 15;
-  const DirectionSampler directions(floor.scene, floor.caches, guide, 0.9f, floor.floor_from(wo),
-                                    wo);
+  if (guide == DirectionGuide::resampled) share = 0.5f;
+  const DirectionSampler directions(floor.scene, floor.caches, {guide, share, candidates},
+                                    floor.floor_from(wo), wo);
   const GaussianMixture light(floor.guide.components);
   const Frame cell(floor.guide.cells[0].normal);
   double sum = 0, squares = 0;
   for (int i = 0; i < kCount; ++i) {
     Sampler sampler(9, 9, i);
-    const float u = sampler.next(), u_lobe = sampler.next();
-    const std::optional<DirectionSample> s = directions.sample(u, u_lobe, sampler.next_2d());
+    const std::optional<DirectionSample> s = directions.sample(sampler);
     if (!s) continue;
     // The mixture stands for L cos: the cosine is already in the weight.
     const double radiance =
-        light.pdf(direction_to_disk(cell.to_local(s->wi))) / std::max(s->wi.z(), 0.01f);
+        light.pdf(direction_to_disk(cell.to_local(s->wi))) / std::max(s->wi.z(), 0.05f);
     const double value = s->weight.y() * radiance;
     sum += value / kCount, squares += value * value / kCount;
   }
@@ -214,6 +290,41 @@ TEST(DirectionSamplerSlow, TheProductOfFitAndLightLowersTheVarianceOfAVertex) {
       const double product = relative_variance(floor, DirectionGuide::product, wo);
       EXPECT_LT(product, 0.5 * std::min(none, light))
           << name << " z " << wo.z() << ": " << none << " " << light;
+    }
+  }
+}
+
+// The narrower a lobe, the more constant light is over it, and the better BSDF sampling alone.
+TEST(DirectionSamplerSlow, LobesTooNarrowForTheGuideAreLeftToBsdfSampling) {
+  float last_share = 0.3f;
+  for (const float alpha : {0.5f, 0.2f, 0.1f, 0.05f, 0.02f, 0.01f, 0.005f, 0.002f, 0.001f}) {
+    const GuidedFloor floor(floor_of(metal(alpha, alpha, MicrofacetDistribution::ggx)),
+                            {0.05f, 0, 1}, {{1, 0, 0, 0.25f, 0, 0.25f}}, 512);
+    double bsdf = 0, product = 0;
+    for (int i = 0; i < 6; ++i) {
+      const Vec3 wo = from(10 * i + 5.1f, i);
+      bsdf += 1 + relative_variance(floor, DirectionGuide::none, wo);
+      product += 1 + relative_variance(floor, DirectionGuide::product, wo, 2, 0.3f);
+    }
+    EXPECT_LT(product, 1.02 * bsdf) << "alpha " << alpha;
+    const Vec3 wo = from(30, 1);
+    const DirectionSampler directions(floor.scene, floor.caches, {DirectionGuide::product, 0.3f},
+                                      floor.floor_from(wo), wo);
+    EXPECT_GT(directions.bsdf_share(), last_share - 1e-3f) << "alpha " << alpha;
+    last_share = directions.bsdf_share();
+  }
+  EXPECT_GT(last_share, 0.95f);
+}
+
+TEST(DirectionSamplerSlow, ResamplingLowersTheVarianceOfAVertexTheMoreCandidatesItHas) {
+  const GuidedFloor floor(floor_of(metal(0.3f, 0.3f, MicrofacetDistribution::ggx)),
+                          {0.3f, -0.2f, 1}, some_light());
+  for (const Vec3& wo : {from(20, 0.5f), from(50, 2)}) {
+    double last = relative_variance(floor, DirectionGuide::resampled, wo, 1);
+    for (const int candidates : {2, 4, 8}) {
+      const double next = relative_variance(floor, DirectionGuide::resampled, wo, candidates);
+      EXPECT_LT(next, 0.8 * last) << candidates << " candidates, z = " << wo.z();
+      last = next;
     }
   }
 }

@@ -64,10 +64,64 @@ TEST_F(SlowRenderModes, IlluminationGuidingHasTheMeanOfPathTracing) {
   EXPECT_LT(share_beyond_three(image, *reference), 0.02);
 }
 
+TEST_F(SlowRenderModes, TheMixtureOfFitAndLightHasTheMeanOfPathTracing) {
+  const Image image = render_mode(*scene, *trained, RenderMode::mixture, 1024, 5);
+  EXPECT_LT(std::abs(mean_z(image, *reference)), 3.5);
+  EXPECT_LT(share_beyond_three(image, *reference), 0.02);
+}
+
 TEST_F(SlowRenderModes, ProductGuidingHasTheMeanOfPathTracing) {
   const Image image = render_mode(*scene, *trained, RenderMode::product, 1024, 5);
   EXPECT_LT(std::abs(mean_z(image, *reference)), 3.5);
   EXPECT_LT(share_beyond_three(image, *reference), 0.02);
+}
+
+TEST_F(SlowRenderModes, ResamplingHasTheMeanOfPathTracingWithFewCandidatesAndMany) {
+  for (const int candidates : {1, 2, 5}) {
+    RenderOptions options;
+    options.mode = RenderMode::ris;
+    options.candidates = candidates;
+    options.spp = 1024;
+    options.seed = 5;
+    options.aovs.variance = true;
+    RenderSummary summary;
+    const Image image = render(*scene, trained->caches(), options, &summary, {});
+    EXPECT_EQ(summary.invalid_samples, 0u);
+    EXPECT_LT(std::abs(mean_z(image, *reference)), 3.5) << candidates;
+    EXPECT_LT(share_beyond_three(image, *reference), 0.02) << candidates;
+  }
+}
+
+RenderSummary summary_of(const Scene& scene, const Trained& trained, RenderMode mode, float share) {
+  RenderOptions options;
+  options.mode = mode;
+  options.spp = 256;
+  options.seed = 5;
+  if (share > 0) options.share_rule = ShareRule::fixed, options.bsdf_share = share;
+  RenderSummary summary;
+  render(scene, trained.caches(), options, &summary, {});
+  return summary;
+}
+
+TEST_F(SlowRenderModes, LearnedSharesAreNoWorseThanTheDefault) {
+  for (const auto& [mode, share] :
+       {std::pair(RenderMode::illumination, 0.5f), std::pair(RenderMode::product, 0.3f)}) {
+    const RenderSummary fixed = summary_of(*scene, *trained, mode, share);
+    const RenderSummary learned = summary_of(*scene, *trained, mode, 0);
+    EXPECT_NEAR(fixed.bsdf_share, share, 0.01);
+    EXPECT_NE(learned.bsdf_share, fixed.bsdf_share);
+    EXPECT_LT(learned.estimated_relmse, 1.05 * fixed.estimated_relmse);
+  }
+}
+
+// Every cell looks at one narrow spot, which is dark for all but a few.
+TEST_F(SlowRenderModes, CellsThatMisleadAreLeftToBsdfSampling) {
+  Trained wrong = *trained;
+  for (GaussianComponent& c : wrong.guide.components) c = {c.weight, 0.3f, 0.3f, 2e-4f, 0, 2e-4f};
+  const RenderSummary fixed = summary_of(*scene, wrong, RenderMode::product, 0.3f);
+  const RenderSummary learned = summary_of(*scene, wrong, RenderMode::product, 0);
+  EXPECT_GT(learned.bsdf_share, 0.6);
+  EXPECT_LT(learned.estimated_relmse, 0.7 * fixed.estimated_relmse);
 }
 
 // Without roulette: from the fifth edge on it kills four paths of five, and its own variance, which
@@ -102,10 +156,11 @@ TEST_F(SlowRenderModes, ACacheOfNonsenseDoesNotBias) {
 }
 
 TEST_F(SlowRenderModes, PixelsAreTheSameAtAnyThreadCount) {
-  for (const RenderMode mode : {RenderMode::bsdf, RenderMode::illumination, RenderMode::product}) {
+  for (const RenderMode mode : {RenderMode::bsdf, RenderMode::illumination, RenderMode::mixture,
+                                RenderMode::product, RenderMode::ris}) {
     const auto with_threads = [&](int threads) {
       const ThreadLimit limit(threads);
-      return render_mode(*scene, *trained, mode, 8, 3).pixels;
+      return render_mode(*scene, *trained, mode, 32, 3).pixels;  // enough for a pilot
     };
     EXPECT_EQ(with_threads(1), with_threads(2));
   }

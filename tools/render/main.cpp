@@ -10,10 +10,13 @@ namespace {
 
 constexpr ToolInfo kTool = {
     "render", "Renders a scene, guided by caches or not",
-    "SCENE -o out.exr [--mode bsdf|illumination|product] [--spp N | --time S | --error E]",
-    R"(Modes. bsdf: path tracing with next-event estimation. illumination: half of the directions come
-from the cache of where light arrives (--cache). product: from the product of that and the fitted BSDF
-(--cache and --brdf). All have the same mean; caches change the noise alone.
+    "SCENE -o out.exr [--mode bsdf|illumination|mixture|product|ris] [--spp N | --time S | --error "
+    "E]",
+    R"(Modes. bsdf: path tracing with next-event estimation. illumination: directions come from the BSDF
+and from the cache of where light arrives (--cache). product: from the BSDF and the product of that
+and the fitted BSDF (--cache and --brdf); mixture: from the mean of the two instead. ris: of
+--candidates from BSDF and cache, the one that BSDF times light favours. All have the same mean;
+caches change the noise alone.
 
 The render ends at the first of --spp, --time and --error (relMSE, as estimated from the image's own
 variance); without any it takes 64 samples per pixel. Ctrl-C writes what there is.
@@ -43,11 +46,7 @@ void declare(CLI::App& app, RenderArguments& arguments) {
   add_stopping(app, options);
   add_frame(app, arguments);
   app.add_option("--seed", options.seed, "Seed of the random numbers");
-  app.add_option("--max-depth", options.max_depth, "Path edges; -1: no limit, -2: the scene's");
-  app.add_option("--rr-depth", options.rr_depth,
-                 "Path edges before Russian roulette; -1: the scene's");
-  app.add_option("--guiding-prob", options.guiding_prob,
-                 "Share of directions from the guide, 0 to 0.99; -1: the mode's");
+  add_sharing(app, arguments);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 constexpr int kDefaultSpp = 64;
 
 // In the order of RenderMode.
-const std::vector<std::string> kModes = {"bsdf", "illumination", "product"};
+const std::vector<std::string> kModes = {"bsdf", "illumination", "mixture", "product", "ris"};
 // In the order of RouletteMode.
 const std::vector<std::string> kRoulettes = {"auto", "none", "throughput", "guided"};
 
@@ -52,6 +52,19 @@ void read_crop(const std::string& text, RenderOptions& options) {
           "--crop {}: write it as X,Y,WIDTH,HEIGHT in pixels", text);
 }
 
+void read_share(const std::string& text, RenderOptions& options) {
+  if (text == "auto") return;
+  if (text == "learned") {
+    options.share_rule = ShareRule::learned;
+    return;
+  }
+  int used = 0;
+  const bool read = std::sscanf(text.c_str(), "%f%n", &options.bsdf_share, &used) == 1;
+  require(read && size_t(used) == text.size(),
+          "--bsdf-share {}: write auto, learned or a number in [0.01, 1]", text);
+  options.share_rule = ShareRule::fixed;
+}
+
 }  // namespace
 
 void add_mode(CLI::App& app, RenderMode& mode) {
@@ -72,6 +85,9 @@ void add_roulette(CLI::App& app, RenderOptions& options) {
       app, "--pixel-estimate", {"cache", "preview"},
       [&options](size_t i) { options.pixel_estimate = static_cast<PixelEstimateMode>(i); },
       "What guided roulette compares paths with");
+  app.add_option("--max-depth", options.max_depth, "Path edges; -1: no limit, -2: the scene's");
+  app.add_option("--rr-depth", options.rr_depth,
+                 "Path edges before Russian roulette; -1: the scene's");
 }
 
 void add_stopping(CLI::App& app, RenderOptions& options) {
@@ -96,10 +112,19 @@ void add_frame(CLI::App& app, RenderArguments& frame) {
       ->allow_extra_args(false);
 }
 
+void add_sharing(CLI::App& app, RenderArguments& arguments) {
+  app.add_option("--bsdf-share", arguments.bsdf_share,
+                 "Share of BSDF sampling where there is a guide: 0.01 to 1, learned per cell, or "
+                 "auto: learned, 0.5 in mode ris")
+      ->type_name("SHARE");
+  app.add_option("--candidates", arguments.options.candidates, "Directions that ris chooses from");
+}
+
 RenderOptions complete_options(const RenderArguments& arguments) {
   RenderOptions options = arguments.options;
   read_size(arguments.size, options);
   read_crop(arguments.crop, options);
+  read_share(arguments.bsdf_share, options);
   for (const std::string& name : arguments.aovs) add_aov(name, options.aovs);
   if (options.spp == 0 && options.time == 0 && options.error == 0) options.spp = kDefaultSpp;
   options.segments = !arguments.segments.empty();

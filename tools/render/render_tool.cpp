@@ -35,8 +35,8 @@ struct LoadedCaches {
     if (guide->view().cells.empty())
       fail("\"{}\": has no cells; train it on photons of the scene", arguments.cache);
     parents.push_back(parent_of(arguments.cache));
-    if (mode != RenderMode::product) return;
-    require(!arguments.brdf.empty(), "--mode product needs --brdf");
+    if (!needs_fits(mode)) return;
+    require(!arguments.brdf.empty(), "--mode {} needs --brdf", mode_name(mode));
     brdf.emplace(read_brdf(arguments.brdf));
     require_same_scene(arguments.brdf, brdf->provenance, scene_name, scene.hash,
                        SceneParts::materials);
@@ -87,6 +87,7 @@ void report(const ToolRun& run, const Provenance& provenance, RenderMode mode,
                 {"mean_path_length", s.mean_path_length},
                 {"killed_share", s.killed_share},
                 {"copies_per_path", s.copies_per_path},
+                {"bsdf_share", s.bsdf_share},
                 {"guiding_share", s.guiding_share},
                 {"estimated_relmse", s.estimated_relmse},
                 {"invalid_samples", s.invalid_samples},

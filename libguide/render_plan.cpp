@@ -1,0 +1,89 @@
+#include "libguide/render_plan.h"
+
+#include <cmath>
+
+#include "libguide/base/error.h"
+
+namespace waylight {
+namespace {
+
+Roulette roulette_of(const RenderOptions& options) {
+  switch (options.roulette) {
+    case RouletteMode::none:
+      return Roulette::none;
+    case RouletteMode::throughput:
+      return Roulette::throughput;
+    case RouletteMode::guided:
+      return Roulette::guided;
+    case RouletteMode::automatic:
+      break;
+  }
+  return options.mode == RenderMode::bsdf ? Roulette::throughput : Roulette::guided;
+}
+
+DirectionGuide guide_of(RenderMode mode) {
+  switch (mode) {
+    case RenderMode::bsdf:
+      return DirectionGuide::none;
+    case RenderMode::illumination:
+      return DirectionGuide::illumination;
+    case RenderMode::product:
+      return DirectionGuide::product;
+    case RenderMode::mixture:
+      return DirectionGuide::mixture;
+    case RenderMode::ris:
+      return DirectionGuide::resampled;
+  }
+  return DirectionGuide::none;
+}
+
+}  // namespace
+
+void RenderOptions::validate() const {
+  require(spp > 0 || time > 0 || error > 0, "one of --spp, --time and --error must be given");
+  require(spp >= 0 && spp <= 1 << 24, "--spp must be in [1, 16777216], not {}", spp);
+  require(time >= 0 && std::isfinite(time), "--time must be a number of seconds, not {}", time);
+  require(error >= 0 && std::isfinite(error), "--error must be positive, not {}", error);
+  require(
+      width >= 0 && height >= 0 && width <= 65536 && height <= 65536 && (width > 0) == (height > 0),
+      "--size must be WIDTHxHEIGHT with both in [1, 65536]");
+  require(max_depth >= -2 && max_depth != 0, "--max-depth must be at least 1, or -1 for no limit");
+  require(rr_depth >= -1, "--rr-depth must not be negative");
+  require(roulette != RouletteMode::guided || mode != RenderMode::bsdf,
+          "--rr guided needs the cache of --mode illumination or product");
+  require(split >= 1 && split <= kMaxSplit, "--split must be in [1, {}], not {}", kMaxSplit, split);
+  require(split == 1 || roulette_of(*this) == Roulette::guided,
+          "--split needs guided roulette: --mode illumination or product, --rr guided or auto");
+  require(bsdf_share >= 0.01f && bsdf_share <= 1,
+          "--bsdf-share must be learned or in [0.01, 1], not {}", bsdf_share);
+  require(
+      share_rule != ShareRule::learned || mode != RenderMode::ris,
+      "--bsdf-share learned is not for --mode ris, whose share is that of the candidates: give a "
+      "number");
+  require(candidates >= 1 && candidates <= 64, "--candidates must be in [1, 64], not {}",
+          candidates);
+}
+
+float default_share(RenderMode mode) { return needs_fits(mode) ? 0.3f : 0.5f; }
+
+bool learns_shares(const RenderOptions& options) {
+  return options.share_rule != ShareRule::fixed && options.mode != RenderMode::bsdf &&
+         options.mode != RenderMode::ris;
+}
+
+PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& options) {
+  const IntegratorDefaults& defaults = scene.description().integrator;
+  PathTracerOptions result;
+  result.directions.guide = guide_of(options.mode);
+  result.directions.bsdf_share =
+      options.share_rule == ShareRule::fixed ? options.bsdf_share : default_share(options.mode);
+  result.directions.candidates = options.candidates;
+  result.roulette = roulette_of(options);
+  result.max_split = options.split;
+  result.max_depth = options.max_depth == -2 ? defaults.max_depth : options.max_depth;
+  result.rr_depth = options.rr_depth == -1 ? defaults.rr_depth : options.rr_depth;
+  result.hide_emitters = defaults.hide_emitters;
+  return result;
+}
+
+}  // namespace waylight
