@@ -13,6 +13,7 @@ find_package(nlohmann_json CONFIG REQUIRED)
 find_package(ZLIB REQUIRED)
 find_path(STB_INCLUDE_DIR stb_image.h PATH_SUFFIXES stb REQUIRED)
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
+find_path(CERES_INCLUDE_DIR ceres/tiny_solver.h REQUIRED)  # headers only: nothing is linked
 block(SCOPE_FOR VARIABLES PROPAGATE OpenVDB_VERSION)  # its module sets BUILD_SHARED_LIBS
   list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
   find_package(OpenVDB 10 QUIET REQUIRED COMPONENTS openvdb)

@@ -1,6 +1,7 @@
 #include "libguide/brdf_fit.h"
 
 #include "libguide/base/error.h"
+#include "libguide/directional/entry_layout.h"
 #include "libguide/fit/fitted_series.h"
 #include "libguide/fit/lobe_family.h"
 
@@ -11,7 +12,8 @@ SeriesLimits limits_of(const BrdfFitOptions& options) {
   return {options.tolerance,
           options.elevations,
           options.directions,
-          {options.components, options.samples, options.seed, options.prior}};
+          {options.components, options.samples, options.seed, options.prior, options.method,
+           options.fixed_components}};
 }
 
 void warn_of_means(const Material& material, const PlannedFit& fit, const RunControl& control) {
@@ -72,7 +74,7 @@ class Assembly {
   void store(std::span<const FittedSeries> series, MaterialFit& record,
              MaterialFitSummary& summary) {
     for (size_t i = 0; i < series.size(); ++i) {
-      const WidthSeries stored = store(series[i], summary);
+      const WidthSeries stored = store(series[i], record.layout, summary);
       if (i == series.size() / 2)
         record.first_entry = stored.first_entry, record.entry_count = stored.entry_count;
       if (stored.width > 0) record.widths.push_back(stored);
@@ -83,14 +85,18 @@ class Assembly {
     summary.from_family = series[0].seconds_per_fit == 0;
     summary.mean_components /= summary.entries;
     summary.held_out_error /= summary.entries;
+    summary.em_error /= summary.entries, summary.ceres_error /= summary.entries;
+    summary.ceres_share /= summary.entries;
   }
 
   // Sums of the summary only.
-  WidthSeries store(const FittedSeries& series, MaterialFitSummary& summary) {
+  WidthSeries store(const FittedSeries& series, EntryLayout layout, MaterialFitSummary& summary) {
     BrdfCache& cache = result_.cache;
     const WidthSeries stored{series.width, static_cast<uint32_t>(cache.entries.size()),
                              static_cast<uint32_t>(series.entries.size())};
-    for (const EntryFit& fit : series.entries) {
+    const int entries = static_cast<int>(series.entries.size());
+    for (int i = 0; i < entries; ++i) {
+      const EntryFit& fit = series.entries[i];
       const size_t first = cache.components.size(), count = fit.components.size();
       cache.entries.push_back(
           {static_cast<uint32_t>(first), static_cast<uint32_t>(count), fit.held_out_error});
@@ -98,9 +104,23 @@ class Assembly {
       summary.mean_components += double(count);
       summary.held_out_error += fit.held_out_error;
       summary.bytes += sizeof(BrdfCacheEntry) + count * sizeof(GaussianComponent);
+      if (series.seconds_per_fit > 0)
+        add_details(fit, std::acos(entry_wo(layout, i, entries).z()), summary);
     }
     summary.entries += static_cast<int>(series.entries.size());
     return stored;
+  }
+
+  void add_details(const EntryFit& fit, float theta, MaterialFitSummary& summary) {
+    const LobeFit& details = fit.details;
+    summary.em_error += details.em_error, summary.ceres_error += details.ceres_error;
+    summary.ceres_share += details.method == FitMethod::ceres;
+    summary.em_seconds += details.em_seconds, summary.ceres_seconds += details.ceres_seconds;
+    const int most = std::min(limits_.lobe.components, GaussianMixture::kMaxComponents);
+    result_.summary.bytes_at_most_components +=
+        sizeof(BrdfCacheEntry) + most * sizeof(GaussianComponent);
+    result_.summary.entries.push_back(
+        {result_.summary.materials.size(), theta, fit.components.size(), details});
   }
 
   // It cost neither time nor space.
@@ -112,6 +132,8 @@ class Assembly {
     summary.entries = first.entries;
     summary.mean_components = first.mean_components;
     summary.held_out_error = first.held_out_error;
+    summary.em_error = first.em_error, summary.ceres_error = first.ceres_error;
+    summary.ceres_share = first.ceres_share;
     summary.shares_with = first.name;
   }
 
@@ -154,8 +176,8 @@ void BrdfFitOptions::validate() const {
   require(directions >= 1 && directions <= 65536, "--directions {}: must be within 1..65536",
           directions);
   require(tolerance >= 0 && tolerance <= 2, "--tolerance {}: must be within 0..2", tolerance);
-  require(components >= 1 && components <= GaussianMixture::kMaxComponents,
-          "--components {}: must be within 1..8", components);
+  require(components >= 1 && components <= kMaxEmComponents,
+          "--components {}: must be within 1..16", components);
   require(samples >= 16 && samples <= 65536, "--samples {}: must be within 16..65536", samples);
   require(prior.v >= 1 && std::isfinite(prior.v), "prior.v is {}: must be at least 1", prior.v);
   require(prior.a > 2 && std::isfinite(prior.a), "prior.a is {}: must be above 2", prior.a);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libguide/base/run_control.h"
-#include "libguide/directional/expectation_maximization.h"
+#include "libguide/fit/lobe_fit.h"
 #include "libguide/records/brdf_cache.h"
 #include "libguide/scene/scene_description.h"
 
@@ -18,8 +18,10 @@ struct BrdfFitOptions {
   float tolerance = 0.02f;
   int elevations = 512;   // most entries of a material that depends on the elevation of wo, 1..4096
   int directions = 4096;  // most of one that depends on its azimuth too, 1..65536
-  int components = 8;     // K before reduction, 1..8
-  int samples = 512;      // directions per entry, 16..65536
+  int components = 8;     // most of a mixture, 1..16; more than 8 are merged after the fit
+  bool fixed_components = false;  // as many as that, also where fewer do nearly as well
+  FitMethod method = FitMethod::best;
+  int samples = 512;  // directions per entry, 16..65536
   uint64_t seed = 0;
   // Narrower lobes are allowed than a training from photons does: the points are free of noise.
   MixturePrior prior{1.01f, 2.01f, 5e-6f};
@@ -33,11 +35,22 @@ struct MaterialFitSummary {
   int widths = 0;   // series of entries where the width is textured, else 0
   int entries = 0;  // of all series
   double mean_components = 0;
-  double held_out_error = 0;  // mean over entries
-  double seconds = 0;         // of one core, fits and tests that were not kept included
+  double held_out_error = 0;  // means over entries, here and of the two methods (LobeFit)
+  double em_error = 0, ceres_error = 0;
+  double ceres_share = 0;                    // of the entries that the refinement made
+  double em_seconds = 0, ceres_seconds = 0;  // of one core, for the entries that were kept
+  double seconds = 0;  // of one core, fits and tests that were not kept included
   size_t bytes = 0;
   bool from_family = false;  // its entries are those of a family that was given
   std::string shares_with;   // an earlier material of the same lobe whose entries serve this one
+};
+
+// One entry that was fitted here.
+struct EntryFitSummary {
+  size_t material = 0;  // index into BrdfFitSummary::materials
+  float theta = 0;      // elevation of wo, radians from the normal
+  size_t components = 0;
+  LobeFit fit;  // without its components
 };
 
 struct FitCost {
@@ -47,11 +60,13 @@ struct FitCost {
 
 struct BrdfFitSummary {
   std::vector<MaterialFitSummary> materials;
+  std::vector<EntryFitSummary> entries;  // by material and place; none where a family served
   std::vector<std::string> skipped;  // "name (kind): why"; delta and null materials and the like
   FitCost cost;
   // Estimated for as many entries as the options allow, for each material its own, at as many
   // widths.
   FitCost full;
+  size_t bytes_at_most_components = 0;  // of the entries, had each as many as were asked for
 };
 
 struct BrdfFitResult {

@@ -54,10 +54,10 @@ int nearest(const Vec2& y, std::span<const Vec2> centres) {
 }
 
 // Statistics of the clusters of the nearest centre, normalised.
-std::array<ComponentStatistics, kLanes> cluster(std::span<const WeightedPoint> points,
+std::array<ComponentStatistics, kMaxEmComponents> cluster(std::span<const WeightedPoint> points,
                                                 const BatchWeights& weights,
                                                 std::span<const Vec2> centres) {
-  std::array<ComponentStatistics, kLanes> result{};
+  std::array<ComponentStatistics, kMaxEmComponents> result{};
   for (const WeightedPoint& p : points) {
     if (!valid_point(p)) continue;
     const float w = std::min(p.weight, weights.cap) * weights.scale / weights.used;
@@ -76,7 +76,7 @@ std::vector<GaussianComponent> cluster_components(std::span<const WeightedPoint>
                                                   const BatchWeights& weights,
                                                   std::span<const Vec2> centres,
                                                   const MixturePrior& prior) {
-  std::array<ComponentStatistics, kLanes> clusters = cluster(points, weights, centres);
+  std::array<ComponentStatistics, kMaxEmComponents> clusters = cluster(points, weights, centres);
   std::vector<GaussianComponent> components(centres.size());
   const std::span<ComponentStatistics> used(clusters.data(), centres.size());
   components.resize(maximization(used, weights.effective, prior, components));
@@ -89,7 +89,7 @@ std::vector<GaussianComponent> initial_components(std::span<const WeightedPoint>
                                                   const MixturePrior& prior) {
   const BatchWeights weights = scan_weights(points, kMaxTrainingWeight);
   if (weights.used == 0) return {};
-  std::vector<Vec2> centres = spread_centres(points, weights, std::clamp(count, 1, kLanes));
+  std::vector<Vec2> centres = spread_centres(points, weights, std::clamp(count, 1, kMaxEmComponents));
   for (int round = 0; round < kLloydRounds; ++round)
     move_to_means(cluster(points, weights, centres), centres);
   return cluster_components(points, weights, centres, prior);
@@ -101,7 +101,7 @@ std::vector<GaussianComponent> components_around(std::span<const WeightedPoint> 
   const BatchWeights weights = scan_weights(points, kMaxTrainingWeight);
   if (weights.used == 0 || centres.empty()) return {};
   return cluster_components(points, weights,
-                            centres.first(std::min<size_t>(centres.size(), kLanes)), prior);
+                            centres.first(std::min<size_t>(centres.size(), kMaxEmComponents)), prior);
 }
 
 }  // namespace waylight

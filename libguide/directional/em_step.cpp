@@ -1,81 +1,64 @@
 #include "libguide/directional/em_step.h"
 
+#include "libguide/math/fast_log.h"
+
 namespace waylight {
 namespace {
 
-constexpr float kMinSupport = 1e-3f;  // of a sample
-constexpr size_t kBlock = 512;        // points summed in float before they go into doubles
-constexpr int kMoments = 6;
+constexpr float kMinSupport = 1e-3f;                      // of a sample
 constexpr float kPlaceLimit = kDiskMaxRadius2 * 1.0001f;  // of |y|^2, with room for rounding
 
-// One component a lane, in the form that the E-step needs; unused lanes are never responsible.
-struct Responsibility {
-  Lanes mean_x{}, mean_y{}, slope{}, inverse_a{}, inverse_b{};
-  Lanes log2_norm = splat(-1e30f);
+// Rows of eight points whose responsibilities fit the first-level cache of the processor, and that
+// are summed in float before they go into doubles.
+constexpr size_t kBlockRows = 16;
+using Shares = Lanes[kMaxEmComponents][kBlockRows];  // responsibility times weight
 
-  explicit Responsibility(std::span<const GaussianComponent> components);
-
-  // log2 of weight times density. Subtracting the largest before the exponential keeps a point far
-  // from all lobes with the nearest one.
-  Lanes log2_density(Lanes dx, Lanes dy) const {
-    const Lanes a = dx * inverse_a, b = (dy - slope * dx) * inverse_b;
-    return log2_norm - a * a - b * b;
+// Returns the weighted sum of log2 of the mixture's density if asked for.
+template <Likelihood likelihood>
+double share_out(std::span<const PointRow> rows, std::span<const Responsibility> model,
+                 Shares& shares) {
+  Lanes log2_likelihood{};
+  for (size_t r = 0; r < rows.size(); ++r) {
+    Lanes largest = splat(-1e30f), sum{};
+    for (size_t k = 0; k < model.size(); ++k) {
+      shares[k][r] = model[k].log2_density(rows[r].x, rows[r].y);
+      largest = lanes_max(largest, shares[k][r]);
+    }
+    for (size_t k = 0; k < model.size(); ++k)
+      sum += shares[k][r] = exp2_clamped(shares[k][r] - largest);
+    const Lanes scale = rows[r].weight / sum;
+    for (size_t k = 0; k < model.size(); ++k) shares[k][r] *= scale;
+    if constexpr (likelihood == Likelihood::sum)
+      log2_likelihood += rows[r].weight * (largest + lanes_log2(sum));
   }
-};
-
-Responsibility::Responsibility(std::span<const GaussianComponent> components) {
-  for (size_t k = 0; k < components.size(); ++k) {
-    const GaussianComponent& c = components[k];
-    const double xx = std::max(c.cov_xx, kCovarianceFloor);
-    const double m = c.cov_xy / xx;
-    const double yy = std::max<double>(c.cov_yy - m * c.cov_xy, kCovarianceFloor);
-    const double norm = c.weight / (2 * std::numbers::pi * std::sqrt(xx * yy));
-    mean_x[k] = c.mean_x, mean_y[k] = c.mean_y, slope[k] = m;
-    inverse_a[k] = std::sqrt(0.5 * std::numbers::log2e / xx);
-    inverse_b[k] = std::sqrt(0.5 * std::numbers::log2e / yy);
-    log2_norm[k] = std::log2(std::max(norm, 1e-30));
-  }
+  return lanes_sum(log2_likelihood);
 }
 
-using Sums = std::array<std::array<double, kLanes>, kMoments>;
-
-template <Likelihood likelihood>
-double sum_block(std::span<const WeightedPoint> points, const BatchWeights& weights,
-                 const Responsibility& model, Sums& sums) {
+// About the component's old mean.
+void add_moments(std::span<const PointRow> rows, const Responsibility& component,
+                 const Lanes* share, Moments& moments) {
   Lanes s0{}, sx{}, sy{}, sxx{}, sxy{}, syy{};
-  double log2_likelihood = 0;
-  for (const WeightedPoint& point : points) {
-    if (!valid_point(point)) continue;
-    const float w = std::min(point.weight, weights.cap) * weights.scale;
-    const Lanes dx = point.y.x() - model.mean_x, dy = point.y.y() - model.mean_y;
-    const Lanes log2_density = model.log2_density(dx, dy);
-    const Lanes largest = lanes_max_splat(log2_density);
-    const Lanes density = exp2_clamped(log2_density - largest);
-    const float sum = lanes_sum(density);
-    const Lanes g = density * (w / sum);
-    const Lanes gx = g * dx, gy = g * dy;
-    s0 += g, sx += gx, sy += gy;
+  for (size_t r = 0; r < rows.size(); ++r) {
+    const Lanes dx = rows[r].x - component.mean_x, dy = rows[r].y - component.mean_y;
+    const Lanes gx = share[r] * dx, gy = share[r] * dy;
+    s0 += share[r], sx += gx, sy += gy;
     sxx += gx * dx, sxy += gx * dy, syy += gy * dy;
-    if constexpr (likelihood == Likelihood::sum)
-      log2_likelihood += w * (largest[0] + std::log2(sum));
   }
-  const Lanes block[kMoments] = {s0, sx, sy, sxx, sxy, syy};
-  for (int m = 0; m < kMoments; ++m)
-    for (int k = 0; k < kLanes; ++k) sums[m][k] += block[m][k];
-  return log2_likelihood;
+  const Lanes sums[] = {s0, sx, sy, sxx, sxy, syy};
+  for (size_t m = 0; m < moments.size(); ++m) moments[m] += lanes_sum(sums[m]);
 }
 
 // From moments about the old mean to s1 about the origin and s2 about the new mean.
-ComponentStatistics recentred(const Sums& sums, int k, double total, const GaussianComponent& c) {
-  const double s0 = sums[0][k] / total, sx = sums[1][k] / total, sy = sums[2][k] / total;
+ComponentStatistics recentred(const Moments& sums, double total, const GaussianComponent& c) {
+  const double s0 = sums[0] / total, sx = sums[1] / total, sy = sums[2] / total;
   if (!(s0 > 1e-30)) return {};
   ComponentStatistics s;
   s.s0 = s0;
   s.s1_x = s0 * c.mean_x + sx, s.s1_y = s0 * c.mean_y + sy;
-  s.s2_xx = std::max(sums[3][k] / total - sx * sx / s0, 0.0);
-  s.s2_yy = std::max(sums[5][k] / total - sy * sy / s0, 0.0);
+  s.s2_xx = std::max(sums[3] / total - sx * sx / s0, 0.0);
+  s.s2_yy = std::max(sums[5] / total - sy * sy / s0, 0.0);
   const double limit = std::sqrt(static_cast<double>(s.s2_xx) * s.s2_yy);
-  s.s2_xy = std::clamp(sums[4][k] / total - sx * sy / s0, -limit, limit);
+  s.s2_xy = std::clamp(sums[4] / total - sx * sy / s0, -limit, limit);
   return s;
 }
 
@@ -126,24 +109,53 @@ BatchWeights scan_weights(std::span<const WeightedPoint> points, float max_weigh
   return result;
 }
 
-BatchStatistics expectation(std::span<const WeightedPoint> points, const BatchWeights& weights,
-                            std::span<const GaussianComponent> components, Likelihood likelihood) {
-  const Responsibility model(components);
-  Sums sums{};
-  double log2_likelihood = 0;
-  for (size_t begin = 0; begin < points.size(); begin += kBlock) {
-    const std::span<const WeightedPoint> block =
-        points.subspan(begin, std::min(kBlock, points.size() - begin));
-    log2_likelihood += likelihood == Likelihood::sum
-                           ? sum_block<Likelihood::sum>(block, weights, model, sums)
-                           : sum_block<Likelihood::skip>(block, weights, model, sums);
+Responsibility::Responsibility(const GaussianComponent& c) : mean_x(c.mean_x), mean_y(c.mean_y) {
+  const double xx = std::max(c.cov_xx, kCovarianceFloor);
+  const double m = c.cov_xy / xx;
+  const double yy = std::max<double>(c.cov_yy - m * c.cov_xy, kCovarianceFloor);
+  const double norm = c.weight / (2 * std::numbers::pi * std::sqrt(xx * yy));
+  slope = m;
+  inverse_a = std::sqrt(0.5 * std::numbers::log2e / xx);
+  inverse_b = std::sqrt(0.5 * std::numbers::log2e / yy);
+  log2_norm = std::log2(std::max(norm, 1e-30));
+}
+
+void fill_rows(std::span<const WeightedPoint> points, const BatchWeights& weights,
+               std::span<PointRow> rows) {
+  if (points.size() % kLanes) rows.back() = {};
+  for (size_t i = 0; i < points.size(); ++i) {
+    const bool valid = valid_point(points[i]);
+    PointRow& row = rows[i / kLanes];
+    row.x[i % kLanes] = valid ? points[i].y.x() : 0;
+    row.y[i % kLanes] = valid ? points[i].y.y() : 0;
+    row.weight[i % kLanes] = valid ? std::min(points[i].weight, weights.cap) * weights.scale : 0;
   }
+}
+
+Expectation::Expectation(std::span<const GaussianComponent> components, Likelihood likelihood)
+    : components_(components), likelihood_(likelihood) {
+  for (size_t k = 0; k < components.size(); ++k) model_[k] = Responsibility(components[k]);
+}
+
+void Expectation::add(std::span<const PointRow> rows) {
+  Shares shares;
+  const std::span<const Responsibility> model(model_.data(), components_.size());
+  for (; !rows.empty(); rows = rows.subspan(std::min(kBlockRows, rows.size()))) {
+    const std::span<const PointRow> block = rows.first(std::min(kBlockRows, rows.size()));
+    log2_likelihood_ += likelihood_ == Likelihood::sum
+                            ? share_out<Likelihood::sum>(block, model, shares)
+                            : share_out<Likelihood::skip>(block, model, shares);
+    for (size_t k = 0; k < model.size(); ++k) add_moments(block, model[k], shares[k], moments_[k]);
+  }
+}
+
+BatchStatistics Expectation::finish() const {
   double total = 0;
-  for (size_t k = 0; k < components.size(); ++k) total += sums[0][k];
+  for (size_t k = 0; k < components_.size(); ++k) total += moments_[k][0];
   BatchStatistics result;
-  for (size_t k = 0; k < components.size(); ++k)
-    result.components[k] = recentred(sums, k, total, components[k]);
-  result.log_likelihood = log2_likelihood * std::numbers::ln2 / total;
+  for (size_t k = 0; k < components_.size(); ++k)
+    result.components[k] = recentred(moments_[k], total, components_[k]);
+  result.log_likelihood = log2_likelihood_ * std::numbers::ln2 / total;
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "libguide/directional/expectation_maximization.h"
+#include "libguide/math/lanes.h"
 
 namespace waylight {
 
@@ -20,13 +21,53 @@ BatchWeights scan_weights(std::span<const WeightedPoint> points, float max_weigh
 
 // Sufficient statistics of one pass over a batch, as in ComponentStatistics.
 struct BatchStatistics {
-  std::array<ComponentStatistics, kLanes> components;
+  std::array<ComponentStatistics, kMaxEmComponents> components;
   double log_likelihood = 0;  // mean by weight, natural logarithm; only if asked for
 };
 
+// Eight points, so that no sum runs across lanes before the end. Those that are no valid points,
+// and those that fill the last row up, have weight zero.
+struct PointRow {
+  Lanes x{}, y{}, weight{};
+};
+inline size_t row_count(size_t points) { return (points + kLanes - 1) / kLanes; }
+void fill_rows(std::span<const WeightedPoint> points, const BatchWeights& weights,
+               std::span<PointRow> rows);  // of row_count(points.size())
+
+using Moments = std::array<double, 6>;  // 1, x, y, xx, xy, yy about an old mean
+
+// One component in the form that the E-step needs.
+struct Responsibility {
+  float mean_x, mean_y, slope, inverse_a, inverse_b, log2_norm;
+
+  Responsibility() = default;
+  explicit Responsibility(const GaussianComponent& c);
+
+  // log2 of weight times density. Subtracting the largest before the exponential keeps a point far
+  // from all lobes with the nearest one.
+  Lanes log2_density(Lanes x, Lanes y) const {
+    const Lanes dx = x - mean_x;
+    const Lanes a = dx * inverse_a, b = ((y - mean_y) - slope * dx) * inverse_b;
+    return log2_norm - a * a - b * b;
+  }
+};
+
 enum class Likelihood { skip, sum };
-BatchStatistics expectation(std::span<const WeightedPoint> points, const BatchWeights& weights,
-                            std::span<const GaussianComponent> components, Likelihood likelihood);
+
+// The E-step over a batch, block by block.
+class Expectation {
+ public:
+  Expectation(std::span<const GaussianComponent> components, Likelihood likelihood);
+  void add(std::span<const PointRow> rows);
+  BatchStatistics finish() const;
+
+ private:
+  std::span<const GaussianComponent> components_;
+  Likelihood likelihood_;
+  std::array<Responsibility, kMaxEmComponents> model_;
+  std::array<Moments, kMaxEmComponents> moments_{};
+  double log2_likelihood_ = 0;
+};
 
 // keep * a + add * b of moments about their own means.
 ComponentStatistics blend(const ComponentStatistics& a, float keep, const ComponentStatistics& b,

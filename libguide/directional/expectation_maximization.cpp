@@ -9,7 +9,22 @@ std::vector<GaussianComponent> start_of(std::span<const WeightedPoint> points,
                                         const EmOptions& options,
                                         std::span<const GaussianComponent> start) {
   if (start.empty()) return initial_components(points, options.components, options.prior);
-  return {start.begin(), start.begin() + std::min<size_t>(start.size(), kLanes)};
+  return {start.begin(), start.begin() + std::min<size_t>(start.size(), kMaxEmComponents)};
+}
+
+// Row by row through a small buffer: a batch of any length without allocation.
+BatchStatistics statistics_of(std::span<const WeightedPoint> batch, const BatchWeights& weights,
+                              std::span<const GaussianComponent> components) {
+  constexpr size_t kRows = 16;
+  PointRow rows[kRows];
+  Expectation expectation(components, Likelihood::skip);
+  for (size_t begin = 0; begin < batch.size(); begin += kRows * kLanes) {
+    const std::span points = batch.subspan(begin, std::min(kRows * kLanes, batch.size() - begin));
+    const std::span filled = std::span(rows).first(row_count(points.size()));
+    fill_rows(points, weights, filled);
+    expectation.add(filled);
+  }
+  return expectation.finish();
 }
 
 }  // namespace
@@ -21,9 +36,13 @@ EmResult fit_mixture(std::span<const WeightedPoint> points, const EmOptions& opt
   result.rejected = weights.rejected;
   if (weights.used == 0) return result;
   result.components = start_of(points, options, start);
+  std::vector<PointRow> rows(row_count(points.size()));
+  fill_rows(points, weights, rows);
   double previous = -std::numeric_limits<double>::infinity();
   while (result.iterations < options.max_iterations) {
-    BatchStatistics batch = expectation(points, weights, result.components, Likelihood::sum);
+    Expectation expectation(result.components, Likelihood::sum);
+    expectation.add(rows);
+    BatchStatistics batch = expectation.finish();
     const std::span<ComponentStatistics> statistics(batch.components.data(),
                                                     result.components.size());
     result.components.resize(
@@ -43,7 +62,7 @@ StepwiseResult stepwise_update(std::span<GaussianComponent> components,
   const BatchWeights weights = scan_weights(batch, max_weight);
   const int count = static_cast<int>(components.size());
   if (weights.used == 0) return {count, weights.rejected};
-  const BatchStatistics seen = expectation(batch, weights, components, Likelihood::skip);
+  const BatchStatistics seen = statistics_of(batch, weights, components);
   const float eta = std::pow(step + 1, -0.7f);
   for (int k = 0; k < count; ++k)
     statistics[k] = blend(statistics[k], 1 - eta, seen.components[k], eta);

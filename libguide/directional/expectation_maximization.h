@@ -28,8 +28,11 @@ struct WeightedPoint {
 // sample in 32 is left alone; a firefly is bounded.
 inline constexpr float kMaxTrainingWeight = 32;
 
+// More than a GaussianMixture holds: fits may begin with more and be reduced.
+inline constexpr int kMaxEmComponents = 16;
+
 struct EmOptions {
-  int components = 8;  // 1..8
+  int components = 8;  // 1..kMaxEmComponents
   int max_iterations = 32;
   float tolerance = 1e-4f;  // relative change of the log-likelihood at which it stops
   float max_weight = kMaxTrainingWeight;
@@ -58,8 +61,9 @@ std::vector<GaussianComponent> components_around(std::span<const WeightedPoint> 
                                                  const MixturePrior& prior);
 
 // Stepwise EM without allocation: one E-step over the batch, then the M-step. `components` and
-// `statistics` have the same length of at most 8 (statistics all zero before the first update);
-// those that keep support, n s0 >= 1e-3, are moved to the front and counted in the result.
+// `statistics` have the same length of at most kMaxEmComponents (statistics all zero before the
+// first update); those that keep support, n s0 >= 1e-3, are moved to the front and counted in the
+// result.
 // step: updates made so far, advanced by one unless no point of the batch is valid.
 // samples: effective number of samples that the statistics stand for; it scales the prior.
 struct StepwiseResult {

@@ -5,6 +5,7 @@
 
 #include "libguide/base/parallel.h"
 #include "libguide/directional/entry_layout.h"
+#include "libguide/fit/lobe_error.h"
 
 namespace waylight {
 namespace {
@@ -19,7 +20,11 @@ double sum(std::span<const double> values) {
 
 FitRefinement::FitRefinement(FitPlaces places, int first, int most, float tolerance,
                              const LobeFitOptions& options)
-    : places_(std::move(places)), most_(most), tolerance_(tolerance), options_(options) {
+    : places_(std::move(places)),
+      most_(most),
+      tolerance_(tolerance),
+      seed_(options.seed),
+      fitter_(std::make_shared<LobeFitter>(options)) {
   start(tolerance > 0 && 2 * first <= most ? first : most);
 }
 
@@ -42,8 +47,12 @@ void FitRefinement::fit_entry(size_t i) {
   const LobeTargets target(1,
                            places_.target(static_cast<int>(i), static_cast<int>(entries_.size())));
   EntryFit& fit = entries_[i];
-  fit.components = fit_lobe(target, options_);
-  fit.held_out_error = held_out_error(target, GaussianMixture(fit.components), options_.seed);
+  const bool first = coarser_.empty();
+  fit.details =
+      fitter_->fit(target, first ? std::span<const GaussianComponent>()
+                                 : coarser_[i * coarser_.size() / entries_.size()].details.asked);
+  fit.components = std::move(fit.details.components);
+  fit.held_out_error = fit.details.error;
 }
 
 void FitRefinement::test_place(size_t i) {
@@ -54,7 +63,7 @@ void FitRefinement::test_place(size_t i) {
   float error = 0;
   for (const ServingEntry& s : serving) {
     const GaussianMixture mixture(entries_[s.entry].components);
-    error += held_out_error(target, mixture.carried(s.rotation), options_.seed) / serving.size();
+    error += held_out_error(target, mixture.carried(s.rotation), seed_) / serving.size();
   }
   excess_[i] = error - coarser_[i].held_out_error;
 }

@@ -14,6 +14,7 @@ namespace waylight {
 struct EntryFit {
   std::vector<GaussianComponent> components;
   float held_out_error = 0;
+  LobeFit details;  // of a fit made here, without its components
 };
 
 // The entry that serves a place, and the rotation from its frame to that of the place.
@@ -56,7 +57,8 @@ class FitRefinement {
   FitPlaces places_;
   int most_;
   float tolerance_;
-  LobeFitOptions options_;
+  uint64_t seed_;
+  std::shared_ptr<const LobeFitter> fitter_;
   Phase phase_ = Phase::fit;
   std::vector<EntryFit> entries_, coarser_;
   std::vector<float> excess_;         // over the error of the coarser places' own fits

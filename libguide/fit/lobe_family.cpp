@@ -4,6 +4,7 @@
 
 #include "libguide/base/error.h"
 #include "libguide/directional/entry_layout.h"
+#include "libguide/fit/lobe_error.h"
 
 namespace waylight {
 namespace {
@@ -59,7 +60,7 @@ EntryFit entry_of(const BrdfCache& cache, uint32_t index) {
   const BrdfCacheEntry& entry = cache.entries[index];
   const std::span<const GaussianComponent> components =
       std::span(cache.components).subspan(entry.first_component, entry.component_count);
-  return {{components.begin(), components.end()}, entry.held_out_error};
+  return {{components.begin(), components.end()}, entry.held_out_error, {}};
 }
 
 // Above the entry's own error, for the lobe seen from wo.

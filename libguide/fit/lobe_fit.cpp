@@ -1,77 +1,182 @@
 #include "libguide/fit/lobe_fit.h"
 
+#include <ctime>
+
+#include "libguide/directional/gaussian_reduction.h"
+#include "libguide/fit/ceres_fit.h"
+#include "libguide/fit/lobe_error.h"
+
 namespace waylight {
 namespace {
 
-constexpr int kAzimuths = 16;  // of an anisotropic lobe
 constexpr int kUniformOf = 4;  // one point of so many is uniform over the hemisphere
 constexpr float kUniformShare = 1.0f / kUniformOf;
+constexpr int kStartTries = 8;  // a rough lobe throws more than half of its samples below ground
+constexpr int kSelectionPoints = 512, kReportPoints = 1024;
 
-// Sequences of random numbers. All entries share them: neighbours in elevation are then fitted to
-// points that move with the lobe, and equal lobes get equal fits.
-enum Stream : uint64_t { kLobeStream, kUniformStream, kStartStream };
+// Fewer components are taken while they cost no more than this over the error of those asked for:
+// one sample in a hundred goes to another place.
+constexpr float kCountTolerance = 0.02f;
+constexpr int kCounts[] = {12, 8, 6, 4, 3, 2, 1};
 
-uint64_t stream_of(Stream kind, size_t target) { return target * 16 + kind; }
+// Sequences of random numbers.
+enum Stream : uint64_t {
+  kLobeStream,
+  kUniformStream,
+  kStartStream,
+  kSelectionStream,
+  kReportStream
+};
 
-std::optional<Vec3> draw(const LobeTarget& target, uint64_t seed, uint64_t stream, int index) {
-  Sampler sampler(seed, stream, index);
-  const float u = sampler.next();
-  return target.sample(u, sampler.next_2d());
-}
+// Of the processor on this thread: other work on the machine does not count.
+class Stopwatch {
+ public:
+  double seconds() const { return now() - start_; }
 
-WeightedPoint weighted(const LobeTarget& target, const Vec3& wi) {
-  const LobeTarget::Value at = target.evaluate(wi);
-  const float density = lerp(at.pdf, kHemispherePdf, kUniformShare);
-  return {direction_to_disk(wi), at.f / density};
-}
-
-// K directions of the lobe, the first centres of EM.
-std::vector<Vec2> start_centres(const LobeTargets& targets, const LobeFitOptions& options) {
-  constexpr int kMaxTries = 8;  // a rough lobe throws more than half of its samples below ground
-  std::vector<Vec2> centres;
-  const size_t count = options.components;
-  for (size_t i = 0; centres.size() < count && i < kMaxTries * count; ++i) {
-    const LobeTarget& target = targets[i % targets.size()];
-    const auto wi = draw(target, options.seed, stream_of(kStartStream, 0), static_cast<int>(i));
-    if (wi) centres.push_back(direction_to_disk(*wi));
+ private:
+  static double now() {
+    timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return t.tv_sec + 1e-9 * t.tv_nsec;
   }
-  return centres;
+  double start_ = now();
+};
+
+using Components = std::vector<GaussianComponent>;
+
+EmOptions em_options(const LobeFitOptions& options) {
+  EmOptions em;
+  em.components = options.components;
+  em.prior = options.prior;
+  return em;
+}
+
+std::vector<WeightedPoint> weighted(std::span<const LobePoint> points) {
+  std::vector<WeightedPoint> result;
+  result.reserve(points.size());
+  for (const LobePoint& p : points) result.push_back({p.y, p.f / p.pdf});
+  return result;
 }
 
 }  // namespace
 
-LobeTargets lobe_targets(const Bsdf& bsdf, float theta, bool anisotropic) {
-  const int count = anisotropic ? kAzimuths : 1;
-  LobeTargets targets;
-  for (int i = 0; i < count; ++i) targets.emplace_back(bsdf, theta, 2 * kPi * i / count);
-  return targets;
+struct LobeFitter::Work {
+  const LobeTargets& targets;
+  std::vector<LobePoint> points;
+  std::vector<LobeRow> rows;
+  Components em, ceres;
+  LobeFit fit;
+};
+
+LobeFitter::LobeFitter(const LobeFitOptions& options) : options_(options) {
+  const int uniform = options.samples / kUniformOf;
+  const auto units = [&](Stream stream, int count) {
+    return unit_points(options.seed, stream, count);
+  };
+  lobe_units_ = units(kLobeStream, options.samples - uniform);
+  disk_units_ = units(kUniformStream, uniform);
+  start_units_ = units(kStartStream, kStartTries * options.components);
+  selection_units_ = units(kSelectionStream, kSelectionPoints);
+  report_units_ = units(kReportStream, kReportPoints);
 }
 
-std::vector<WeightedPoint> lobe_points(const LobeTargets& targets, const LobeFitOptions& options) {
-  std::vector<WeightedPoint> points;
-  points.reserve(options.samples);
-  const int each = std::max<int>(options.samples / targets.size(), kUniformOf);
-  const int uniform = each / kUniformOf;
-  for (size_t t = 0; t < targets.size(); ++t) {
-    for (int i = 0; i < each - uniform; ++i)
-      if (const auto wi = draw(targets[t], options.seed, stream_of(kLobeStream, t), i))
-        points.push_back(weighted(targets[t], *wi));
-    for (int i = 0; i < uniform; ++i) {
-      Sampler sampler(options.seed, stream_of(kUniformStream, t), i);
-      points.push_back(weighted(targets[t], square_to_hemisphere(sampler.next_2d())));
-    }
-  }
+std::vector<LobePoint> LobeFitter::draw_points(const LobeTargets& targets) const {
+  std::vector<LobePoint> points;
+  points.reserve(options_.samples);
+  for (size_t i = 0; i < lobe_units_.size(); ++i)
+    if (const auto p = sample_lobe(targets, i, lobe_units_[i])) points.push_back(*p);
+  for (const UnitPoint& unit : disk_units_)
+    points.push_back(evaluate_lobe(targets, square_to_disk(unit.u2)));
+  for (LobePoint& p : points) p.pdf = lerp(p.pdf, kHemispherePdf, kUniformShare);
   return points;
 }
 
-std::vector<GaussianComponent> fit_lobe(const LobeTargets& targets, const LobeFitOptions& options) {
-  const std::vector<WeightedPoint> points = lobe_points(targets, options);
-  EmOptions em;
-  em.components = options.components;
-  em.prior = options.prior;
-  const std::vector<GaussianComponent> start =
-      components_around(points, start_centres(targets, options), options.prior);
-  return fit_mixture(points, em, start).components;
+// K directions of the lobe.
+std::vector<Vec2> LobeFitter::start_centres(const LobeTargets& targets) const {
+  std::vector<Vec2> centres;
+  const size_t count = options_.components;
+  for (size_t i = 0; centres.size() < count && i < start_units_.size(); ++i)
+    if (const auto p = sample_lobe(targets, i, start_units_[i])) centres.push_back(p->y);
+  return centres;
+}
+
+Components LobeFitter::fit_em(const LobeTargets& targets, std::span<const LobePoint> points) const {
+  const std::vector<WeightedPoint> weights = weighted(points);
+  const Components start = components_around(weights, start_centres(targets), options_.prior);
+  return fit_mixture(weights, em_options(options_), start).components;
+}
+
+// With the components asked for.
+void LobeFitter::fit_asked(Work& work, std::span<const GaussianComponent> neighbour) const {
+  const Stopwatch em_watch;
+  work.points = draw_points(work.targets);
+  work.em = fit_em(work.targets, work.points);
+  work.fit.em_seconds = em_watch.seconds();
+  if (options_.method == FitMethod::em || work.em.empty()) return;
+  const Stopwatch ceres_watch;
+  work.rows = lobe_rows(work.points, options_.samples);
+  const bool nearer = neighbour.size() == work.em.size() &&
+                      relative_cost(work.rows, neighbour) < relative_cost(work.rows, work.em);
+  const CeresResult refined = refine_mixture(
+      work.rows, nearer ? neighbour : std::span<const GaussianComponent>(work.em), {});
+  work.ceres = refined.components;
+  work.fit.ceres_iterations = refined.iterations;
+  work.fit.ceres_seconds = ceres_watch.seconds();
+}
+
+void LobeFitter::choose_method(Work& work) const {
+  work.fit.method = options_.method;
+  if (work.ceres.empty()) work.fit.method = FitMethod::em;
+  if (work.fit.method == FitMethod::best) {
+    const FitDensity both[] = {FitDensity(work.em), FitDensity(work.ceres)};
+    const LobeJudge judge(work.targets, both, selection_units_);
+    work.fit.method =
+        judge.error(both[1]) < judge.error(both[0]) ? FitMethod::ceres : FitMethod::em;
+  }
+  work.fit.components = work.fit.asked = work.fit.method == FitMethod::em ? work.em : work.ceres;
+}
+
+// Merges components and polishes the rest by the method that was chosen, step by step.
+void LobeFitter::choose_count(Work& work) const {
+  Components& best = work.fit.components;
+  const std::vector<WeightedPoint> weights = weighted(work.points);
+  const FitDensity asked(best);
+  const LobeJudge judge(work.targets, std::span(&asked, 1), selection_units_);
+  const float limit = judge.error(asked) + kCountTolerance;
+  for (const int count : kCounts) {
+    if (count >= static_cast<int>(best.size())) continue;
+    const bool must = best.size() > GaussianMixture::kMaxComponents;
+    if (options_.fixed_components && !must) break;
+    const Components merged = reduce_mixture(best, 0, count).components;
+    const Components polished = work.fit.method == FitMethod::em
+                                    ? fit_mixture(weights, em_options(options_), merged).components
+                                    : refine_mixture(work.rows, merged, {}).components;
+    if (!must && judge.error(FitDensity(polished)) > limit) break;
+    best = polished;
+  }
+}
+
+void LobeFitter::report(Work& work) const {
+  const FitDensity mixtures[] = {FitDensity(work.em),
+                                 FitDensity(work.ceres.empty() ? work.em : work.ceres),
+                                 FitDensity(work.fit.components)};
+  const LobeJudge judge(work.targets, mixtures, report_units_);
+  work.fit.em_error = judge.error(mixtures[0]);
+  work.fit.ceres_error = judge.error(mixtures[1]);
+  work.fit.error = judge.error(mixtures[2]);
+}
+
+LobeFit LobeFitter::fit(const LobeTargets& targets,
+                        std::span<const GaussianComponent> neighbour) const {
+  const Stopwatch watch;
+  Work work{targets, {}, {}, {}, {}, {}};
+  fit_asked(work, neighbour);
+  if (work.em.empty()) return work.fit;
+  choose_method(work);
+  choose_count(work);
+  report(work);
+  work.fit.seconds = watch.seconds();
+  return work.fit;
 }
 
 }  // namespace waylight

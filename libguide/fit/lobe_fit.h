@@ -1,37 +1,69 @@
 #pragma once
-// The fit of one entry of a BRDF cache: points, EM, held-out error.
+// The fit of one entry of a BRDF cache.
 
-#include <vector>
-
-#include "libguide/directional/expectation_maximization.h"
-#include "libguide/fit/lobe_target.h"
+#include "libguide/fit/lobe_points.h"
 
 namespace waylight {
 
+// em: weighted MAP EM. ceres: its result refined by non-linear least squares. best: the better of
+// the two, at points that neither has seen.
+enum class FitMethod { best, em, ceres };
+
 struct LobeFitOptions {
-  int components = 8, samples = 512;
+  int components = 8;  // 1..kMaxEmComponents
+  int samples = 512;
   uint64_t seed = 0;
   MixturePrior prior{1.01f, 2.01f, 5e-6f};
+  FitMethod method = FitMethod::best;
+  bool fixed_components = false;  // or fewer where they do nearly as well
 };
 
-// The targets of one entry: one wo, or several azimuths of an anisotropic lobe, whose mean is
-// fitted.
-using LobeTargets = std::vector<LobeTarget>;
-LobeTargets lobe_targets(const Bsdf& bsdf, float theta, bool anisotropic);
+// Errors are held-out errors (lobe_error.h), all at the same points, which neither the fit nor the
+// choices between fits have seen.
+struct LobeFit {
+  std::vector<GaussianComponent> components;  // at most 8; empty where f is zero everywhere
+  std::vector<GaussianComponent> asked;  // with the number asked for: where a neighbour may start
+  FitMethod method = FitMethod::em;      // what made them
+  float error = 0;                       // of `components`
+  float em_error = 0, ceres_error = 0;   // of each method with the components asked for; a method
+                                         // that was not run has the other's
+  double em_seconds = 0;                 // of drawing the points and of EM
+  double ceres_seconds = 0;              // of the refinement, beside that
+  int ceres_iterations = 0;
+  double seconds = 0;  // of all, with the choices and the held-out error
+};
 
-// Directions on the disk with the weights f / p, p the density of what made them: the BSDF's own
-// sampler and, so that no weight explodes where f is not small and the sampler is (f / p of a
-// cosine-weighted sampler grows as 1 / cos), a share uniform over the hemisphere.
-std::vector<WeightedPoint> lobe_points(const LobeTargets& targets, const LobeFitOptions& options);
+// Fits entries that share their random numbers. Safe to use from several threads.
+class LobeFitter {
+ public:
+  explicit LobeFitter(const LobeFitOptions& options);
 
-// Weighted MAP EM from one start; empty where f is zero everywhere. Measured over 20 lobes: further
-// starts by k-means++ gain nothing on the mean, four times the points a fifth of the error for four
-// times the time, and more than 32 iterations lose by fitting the points too well.
-std::vector<GaussianComponent> fit_lobe(const LobeTargets& targets, const LobeFitOptions& options);
+  // neighbour: the fit of a wo near by, or nothing. The refinement starts from it where it is the
+  // better start. The result depends on the arguments alone.
+  LobeFit fit(const LobeTargets& targets, std::span<const GaussianComponent> neighbour = {}) const;
 
-// The integral of |f - G| over the upper hemisphere, f normalised there and G the mixture's own
-// sub-density, mean over the targets: in [0, 2]. By importance sampling of f, G and the hemisphere
-// together, with points independent of those of the fit.
-float held_out_error(const LobeTargets& targets, const GaussianMixture& mixture, uint64_t seed);
+  // What EM and the refinement see: three quarters of the samples drawn by the BSDF's own sampler,
+  // and, so that f / pdf is bounded where f is not small and that sampler seldom goes (f / p of a
+  // cosine-weighted sampler grows as 1 / cos), one quarter stratified over the hemisphere.
+  std::vector<LobePoint> draw_points(const LobeTargets& targets) const;
+
+  // Weighted MAP EM from one start. Measured over 20 lobes: further starts by k-means++ gain
+  // nothing on the mean, four times the points a fifth of the error for four times the time, and
+  // more than 32 iterations lose by fitting the points too well.
+  std::vector<GaussianComponent> fit_em(const LobeTargets& targets,
+                                        std::span<const LobePoint> points) const;
+
+ private:
+  struct Work;  // on one entry
+
+  std::vector<Vec2> start_centres(const LobeTargets& targets) const;
+  void fit_asked(Work& work, std::span<const GaussianComponent> neighbour) const;
+  void choose_method(Work& work) const;
+  void choose_count(Work& work) const;
+  void report(Work& work) const;
+
+  LobeFitOptions options_;
+  std::vector<UnitPoint> lobe_units_, disk_units_, start_units_, selection_units_, report_units_;
+};
 
 }  // namespace waylight

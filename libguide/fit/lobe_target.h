@@ -28,12 +28,21 @@ class LobeTarget {
     const EvalPdf e = bsdf_.evaluate(wo_, rotated(wi));
     return {luminance(e.value) / wi.z(), e.pdf};
   }
-  // By the BSDF's own sampler.
-  std::optional<Vec3> sample(float u, const Vec2& u2) const {
+  // By the BSDF's own sampler, which knows the value of what it draws.
+  struct Sample {
+    Vec3 wi;
+    Value value;
+  };
+  std::optional<Sample> sample_value(float u, const Vec2& u2) const {
     const std::optional<BsdfSample> s = bsdf_.sample(wo_, u, u2);
     if (!s || !(s->wi.z() > 0)) return std::nullopt;
-    return Vec3(cosine_ * s->wi.x() + sine_ * s->wi.y(), cosine_ * s->wi.y() - sine_ * s->wi.x(),
-                s->wi.z());
+    return Sample{{cosine_ * s->wi.x() + sine_ * s->wi.y(), cosine_ * s->wi.y() - sine_ * s->wi.x(),
+                   s->wi.z()},
+                  {luminance(s->weight) * (s->pdf / s->wi.z()), s->pdf}};
+  }
+  std::optional<Vec3> sample(float u, const Vec2& u2) const {
+    const std::optional<Sample> s = sample_value(u, u2);
+    return s ? std::optional<Vec3>(s->wi) : std::nullopt;
   }
 
  private:

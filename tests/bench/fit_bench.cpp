@@ -2,6 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "libguide/fit/ceres_fit.h"
+#include "libguide/fit/lobe_error.h"
 #include "libguide/fit/lobe_fit.h"
 
 namespace waylight {
@@ -13,36 +15,78 @@ RoughConductor metal(float alpha) {
 }
 
 // Elevations change from one iteration to the next, as in a fit of a whole material.
-template <typename Body>
-void over_elevations(benchmark::State& state, const Body& body) {
-  constexpr int kElevations = 16;
+constexpr int kElevations = 16;
+
+struct Lobes {
   Bsdf bsdf;
-  bsdf.add(metal(1e-3f * state.range(0)), 1);
+  LobeFitter fitter;
   std::vector<LobeTargets> targets;
-  for (int i = 0; i < kElevations; ++i)
-    targets.push_back(lobe_targets(bsdf, (i + 0.5f) / kElevations * 0.5f * kPi, false));
-  int i = 0;
-  for (auto _ : state) body(targets[i++ % kElevations]);
-}
+  std::vector<std::vector<LobePoint>> points;
+
+  explicit Lobes(const benchmark::State& state) : fitter(options_of(state)) {
+    bsdf.add(metal(1e-3f * state.range(0)), 1);
+    for (int i = 0; i < kElevations; ++i) {
+      targets.push_back(lobe_targets(bsdf, (i + 0.5f) / kElevations * 0.5f * kPi, false));
+      points.push_back(fitter.draw_points(targets[i]));
+    }
+  }
+  static LobeFitOptions options_of(const benchmark::State& state) {
+    LobeFitOptions options;
+    options.components = static_cast<int>(state.range(1));
+    return options;
+  }
+};
 
 void fit_points(benchmark::State& state) {
-  over_elevations(state,
-                  [](const LobeTargets& t) { benchmark::DoNotOptimize(lobe_points(t, {})); });
+  const Lobes lobes(state);
+  int i = 0;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(lobes.fitter.draw_points(lobes.targets[i++ % kElevations]));
 }
-BENCHMARK(fit_points)->Arg(150);
+BENCHMARK(fit_points)->Args({150, 8});
 
 void fit_em(benchmark::State& state) {
-  over_elevations(state, [](const LobeTargets& t) { benchmark::DoNotOptimize(fit_lobe(t, {})); });
+  const Lobes lobes(state);
+  int i = 0;
+  for (auto _ : state) {
+    const int at = i++ % kElevations;
+    benchmark::DoNotOptimize(lobes.fitter.fit_em(lobes.targets[at], lobes.points[at]));
+  }
 }
-BENCHMARK(fit_em)->Arg(10)->Arg(50)->Arg(150)->Arg(300);
+BENCHMARK(fit_em)->Args({20, 8})->Args({50, 8})->Args({150, 8})->Args({300, 8})->Args({150, 16});
+
+void fit_ceres(benchmark::State& state) {
+  const Lobes lobes(state);
+  std::vector<std::vector<LobeRow>> rows;
+  std::vector<std::vector<GaussianComponent>> start;
+  for (int i = 0; i < kElevations; ++i) {
+    rows.push_back(lobe_rows(lobes.points[i], LobeFitOptions().samples));
+    start.push_back(lobes.fitter.fit_em(lobes.targets[i], lobes.points[i]));
+  }
+  int i = 0;
+  for (auto _ : state) {
+    const int at = i++ % kElevations;
+    benchmark::DoNotOptimize(refine_mixture(rows[at], start[at], {}));
+  }
+}
+BENCHMARK(fit_ceres)->Args({20, 8})->Args({50, 8})->Args({150, 8})->Args({300, 8})->Args({150, 16});
+
+// With the choice of the method and of the number of components, and the held-out error.
+void fit_entry(benchmark::State& state) {
+  const Lobes lobes(state);
+  int i = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(lobes.fitter.fit(lobes.targets[i++ % kElevations]));
+}
+BENCHMARK(fit_entry)->Args({150, 8});
 
 void fit_held_out_error(benchmark::State& state) {
-  over_elevations(
-      state,
-      [mixture = GaussianMixture(std::vector<GaussianComponent>{{1, 0, 0, 0.05f, 0, 0.05f}})](
-          const LobeTargets& t) { benchmark::DoNotOptimize(held_out_error(t, mixture, 0)); });
+  const Lobes lobes(state);
+  const GaussianMixture mixture(std::vector<GaussianComponent>{{1, 0, 0, 0.05f, 0, 0.05f}});
+  int i = 0;
+  for (auto _ : state)
+    benchmark::DoNotOptimize(held_out_error(lobes.targets[i++ % kElevations], mixture, 0));
 }
-BENCHMARK(fit_held_out_error)->Arg(150);
+BENCHMARK(fit_held_out_error)->Args({150, 8});
 
 }  // namespace
 }  // namespace waylight

@@ -1,81 +1,17 @@
 #include "tools/brdf-fit/brdf_fit_tool.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "formats/atomic_file.h"
 #include "formats/brdf_file.h"
 #include "libguide/base/error.h"
+#include "tools/brdf-fit/fit_report.h"
 #include "tools/common/provenance_of.h"
 
 namespace waylight {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json to_json(const MaterialFitSummary& m) {
-  return {{"name", m.name},
-          {"kind", m.kind},
-          {"textured", m.textured},
-          {"widths", m.widths},
-          {"entries", m.entries},
-          {"mean_components", m.mean_components},
-          {"held_out_error", m.held_out_error},
-          {"seconds", m.seconds},
-          {"bytes", m.bytes},
-          {"from_family", m.from_family},
-          {"shares_with", m.shares_with}};
-}
-
-std::string remark(const MaterialFitSummary& m) {
-  if (!m.shares_with.empty()) return fmt::format("  as {}", m.shares_with);
-  if (m.widths > 0)
-    return fmt::format("  {} widths", m.widths) + (m.from_family ? " of its family" : "");
-  if (m.from_family) return "  of its family";
-  return m.textured ? "  mean of its textures" : "";
-}
-
-void print_table(const ToolRun& run, const BrdfFitSummary& summary) {
-  run.print(fmt::format("{:28} {:16} {:>7} {:>5} {:>8} {:>8} {:>8}", "material", "kind", "entries",
-                        "comp.", "error", "CPU ms", "size"));
-  for (const MaterialFitSummary& m : summary.materials)
-    run.print(fmt::format("{:28} {:16} {:>7} {:>5.1f} {:>8.3f} {:>8.1f} {:>8}{}", m.name, m.kind,
-                          m.entries, m.mean_components, m.held_out_error, 1000 * m.seconds,
-                          format_bytes(double(m.bytes)), remark(m)));
-  for (const std::string& name : summary.skipped) run.print("not fitted: " + name);
-}
-
-Json to_json(const FitCost& cost) {
-  return {{"entries", cost.entries}, {"bytes", cost.bytes}, {"seconds", cost.seconds}};
-}
-
-void print_totals(const ToolRun& run, const BrdfFitSummary& summary, double seconds) {
-  run.print(fmt::format("{} materials, {} entries, {} in {:.2f} s", summary.materials.size(),
-                        summary.cost.entries, format_bytes(double(summary.cost.bytes)), seconds));
-  if (summary.full.entries == summary.cost.entries) return;
-  run.print(
-      fmt::format("unshared and at full resolution: {} entries, {}, {:.1f} times the CPU time",
-                  summary.full.entries, format_bytes(double(summary.full.bytes)),
-                  summary.full.seconds / std::max(summary.cost.seconds, 1e-9)));
-}
-
-void report(const ToolRun& run, const Provenance& provenance, const BrdfFitSummary& summary,
-            double seconds) {
-  print_table(run, summary);
-  print_totals(run, summary, seconds);
-  Json materials = Json::array();
-  for (const MaterialFitSummary& m : summary.materials) materials.push_back(to_json(m));
-  Json stats = stats_of(provenance);
-  stats.update({{"seconds", seconds},
-                {"entries", summary.cost.entries},
-                {"bytes", summary.cost.bytes},
-                {"full", to_json(summary.full)}});
-  stats["materials"] = materials;
-  stats["skipped"] = summary.skipped;
-  run.write_stats(stats);
-}
 
 void validate(const BrdfFitArguments& arguments) {
   const bool scene = !arguments.scene.path.empty(), family = !arguments.family.empty();
@@ -132,7 +68,14 @@ void brdf_fit(const ToolRun& run, const ToolInfo& tool, const BrdfFitArguments& 
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Provenance provenance = provenance_of(run, tool, arguments, scene.hash);
   write_brdf(arguments.output, {provenance, std::move(result.cache)});
-  report(run, provenance, result.summary, seconds);
+  if (!arguments.report.empty())
+    write_text_atomically(arguments.report,
+                          to_text(entry_table(result.summary, arguments.options)));
+  print_table(run, result.summary, seconds);
+  nlohmann::ordered_json stats = stats_of(provenance);
+  stats["seconds"] = seconds;
+  stats.update(to_json(result.summary));
+  run.write_stats(stats);
 }
 
 }  // namespace waylight

@@ -10,6 +10,7 @@ struct BrdfFitArguments {
   std::string family;                 // name
   std::vector<std::string> families;  // files of families that may serve the scene
   std::string output;
+  std::string report;  // table over entries; empty: none
   BrdfFitOptions options;
 };
 

@@ -13,7 +13,8 @@ constexpr ToolInfo kTool = {
     "SCENE -o scene.brdf [--tolerance E] [--family-file FILE]...\n"
     "       brdf-fit --family NAME -o family.brdf",
     R"(For each material that has a density, and for a series of outgoing directions, a mixture on the
-equal-area disk is fitted to the BSDF. As many directions are fitted as keep the error between them
+equal-area disk is fitted to the BSDF: by weighted maximum-a-posteriori EM, refined by least squares on
+relative errors with Ceres; the better of the two is kept, with no more components than it needs. As many directions are fitted as keep the error between them
 within --tolerance of the error at them, and materials whose lobes have one shape share theirs: of
 diffuse materials one mixture serves all. Where the roughness is textured there are fits for a series
 of widths, and the renderer takes that nearest to the local one; whatever else is textured is fitted
@@ -23,8 +24,8 @@ glass are sampled exactly by the renderer and need no fit.
 A family is fitted once, for widths from 0.005 to 1, and serves the lobes of any scene that it fits
 as well as its own: roughconductor-ggx, roughconductor-beckmann, phong, ward.
 
-The held-out error is the mean |f - G| of both normalised densities over directions that the fit did
-not see, in [0, 2].
+The errors are held-out ones: the mean |f - G| of both normalised densities over directions that
+neither a fit nor a choice has seen, in [0, 2].
 
 Examples:
   brdf-fit room.xml -o room.brdf
@@ -43,11 +44,20 @@ void declare(CLI::App& app, BrdfFitArguments& arguments) {
       ->check(CLI::Range(1, 4096));
   app.add_option("--directions", options.directions, "Most entries of an anisotropic material")
       ->check(CLI::Range(1, 65536));
-  app.add_option("--components", options.components, "Components of a mixture")
-      ->check(CLI::Range(1, 8));
+  add_choice(
+      app, "--fit", {"best", "em", "ceres"}, [&](size_t i) { options.method = FitMethod(i); },
+      "How mixtures are fitted: EM, EM refined with Ceres, or the better of both");
+  app.add_option("--components", options.components,
+                 "Most components of a mixture; more than 8 are merged after the fit")
+      ->check(CLI::Range(1, 16));
+  app.add_flag("--fixed-components", options.fixed_components,
+               "Keep as many, also where fewer do nearly as well");
   app.add_option("--samples", options.samples, "BSDF samples per fit")
       ->check(CLI::Range(16, 65536));
   app.add_option("--seed", options.seed, "Seed of the random numbers");
+  as_output(
+      app.add_option("--report", arguments.report, "Table over entries to write: errors, times"),
+      {".csv"});
 }
 
 }  // namespace

@@ -131,4 +131,10 @@ void append_csv(const std::string& path, const CsvRow& row) {
   file.append(addition + csv_line(arrange(row, columns, path)));
 }
 
+std::string to_text(const CsvTable& table) {
+  std::string text = join_line(table.columns);
+  for (const std::vector<std::string>& row : table.rows) text += join_line(row);
+  return text;
+}
+
 }  // namespace waylight

@@ -27,4 +27,7 @@ using CsvRow = std::vector<std::pair<std::string, std::string>>;  // column, cel
 // other processes that append at the same time.
 void append_csv(const std::string& path, const CsvRow& row);
 
+// The text of a table.
+std::string to_text(const CsvTable& table);
+
 }  // namespace waylight
