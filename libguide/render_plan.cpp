@@ -7,20 +7,6 @@
 namespace waylight {
 namespace {
 
-Roulette roulette_of(const RenderOptions& options) {
-  switch (options.roulette) {
-    case RouletteMode::none:
-      return Roulette::none;
-    case RouletteMode::throughput:
-      return Roulette::throughput;
-    case RouletteMode::guided:
-      return Roulette::guided;
-    case RouletteMode::automatic:
-      break;
-  }
-  return options.mode == RenderMode::bsdf ? Roulette::throughput : Roulette::guided;
-}
-
 DirectionGuide guide_of(RenderMode mode) {
   switch (mode) {
     case RenderMode::bsdf:
@@ -38,6 +24,20 @@ DirectionGuide guide_of(RenderMode mode) {
 }
 
 }  // namespace
+
+Roulette roulette_of(const RenderOptions& options) {
+  switch (options.roulette) {
+    case RouletteMode::none:
+      return Roulette::none;
+    case RouletteMode::throughput:
+      return Roulette::throughput;
+    case RouletteMode::guided:
+      return Roulette::guided;
+    case RouletteMode::automatic:
+      break;
+  }
+  return options.mode == RenderMode::bsdf ? Roulette::throughput : Roulette::guided;
+}
 
 void RenderOptions::validate() const {
   require(spp > 0 || time > 0 || error > 0, "one of --spp, --time and --error must be given");

@@ -10,6 +10,9 @@ namespace waylight {
 // the product 0.3 is the best of 0.1 .. 0.7 in two measured interiors.
 float default_share(RenderMode mode);
 
+// What `automatic` stands for.
+Roulette roulette_of(const RenderOptions& options);
+
 // Whether a pilot learns the share of each cell.
 bool learns_shares(const RenderOptions& options);
 

@@ -45,7 +45,11 @@ const Scene& scene() {
 
 const PathTracer& tracer() {
   static const GuidingCaches none;
-  static const PathTracer made(scene(), none, {.max_depth = 10});
+  static const PathTracer made = [] {
+    PathTracerOptions options;
+    options.max_depth = 10;
+    return PathTracer(scene(), none, options);
+  }();
   return made;
 }
 

@@ -132,8 +132,8 @@ void append_csv(const std::string& path, const CsvRow& row) {
 }
 
 std::string to_text(const CsvTable& table) {
-  std::string text = join_line(table.columns);
-  for (const std::vector<std::string>& row : table.rows) text += join_line(row);
+  std::string text = csv_line(table.columns);
+  for (const std::vector<std::string>& row : table.rows) text += csv_line(row);
   return text;
 }
 

@@ -26,15 +26,18 @@ SceneDescription glass_ball() {
 
 TEST(PhotonTracer, RoughGlassStoresPhotonsOnBothSidesWithNormalsTowardsThem) {
   const Scene scene(glass_ball());
-  const PhotonTracer tracer(scene, 16, 8, 1.0f / 2000);
-  std::vector<Photon> photons;
-  PhotonCounts counts;
+  PhotonTracerOptions options;
+  options.max_depth = 16;
+  options.rr_depth = 8;
+  options.power_scale = 1.0f / 2000;
+  const PhotonTracer tracer(scene, options);
+  PhotonRecords records;
   for (uint32_t i = 0; i < 2000; ++i) {
     Sampler sampler(1, 1, i);
-    tracer.trace(sampler, &photons, &counts);
+    tracer.trace(sampler, &records);
   }
   int outside = 0, inside = 0;
-  for (const Photon& photon : photons) {
+  for (const Photon& photon : records.photons) {
     if (photon.position.norm() > 1.1f) continue;
     EXPECT_GT(photon.normal.dot(photon.direction), 0);
     ++(photon.normal.dot(photon.position) > 0 ? outside : inside);
