@@ -94,11 +94,15 @@ $(OUT)/reduced.% $(OUT)/cache-reduce-%.json: $(OUT)/scene.% $(OUT)/.options/cach
 # Caches that each mode needs.
 caches_bsdf :=
 caches_illumination := $(OUT)/reduced.cache
+caches_ris := $(caches_illumination)
 caches_product := $(OUT)/reduced.cache $(OUT)/reduced.brdf
+caches_mixture := $(caches_product)
 preprocess_bsdf :=
 preprocess_illumination := $(foreach s,$(training) cache-reduce-cache,$(OUT)/$(s).json)
 preprocess_product := $(preprocess_illumination) \
   $(foreach s,brdf-fit cache-reduce-brdf,$(OUT)/$(s).json)
+preprocess_ris := $(preprocess_illumination)
+preprocess_mixture := $(preprocess_product)
 cache_flags = $(patsubst %.brdf,--brdf %.brdf,$(patsubst %.cache,--cache %.cache,$(1)))
 cache: $(caches_product) $(preprocess_product)
 

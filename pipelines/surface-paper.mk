@@ -15,7 +15,7 @@ OUT ?= out/surface-paper
 SCENES ?= gap-room jewelry veach-ajar kitchenette living-room
 SECONDS ?= 300
 SEEDS ?= 1 2 3
-METHODS ?= bsdf illumination product
+METHODS ?= bsdf illumination ris product product-split
 BIN ?= build/bin
 WAYLIGHT_SCENES ?= ../shared/scenes
 
@@ -30,6 +30,7 @@ options_kitchenette := REFERENCE=$(WAYLIGHT_SCENES)/kitchenette/kitchenette_ref.
 reference_of = $(if $(findstring REFERENCE=,$(options_$(1))),,'REFERENCE=$$(OUT)/reference.exr')
 scene_make = $(MAKE) --no-print-directory -f $(ROOT)/$(1).mk OUT=$(OUT)/$(1) BIN=$(BIN) \
   WAYLIGHT_SCENES=$(WAYLIGHT_SCENES) TIMES='$(SECONDS)' SEEDS='$(SEEDS)' METHODS='$(METHODS)' \
+  mode_product-split=product flags_product-split='--split 8' \
   $(call reference_of,$(1)) $(options_$(1))
 
 .DELETE_ON_ERROR:
