@@ -45,7 +45,9 @@ $(OUT)/reduction/%.csv: $(OUT)/reduction/%.exr $(OUT)/reduction/%.json $(REFEREN
 	jq -rs --arg threshold $* -f $(ROOT)/tables/reduction.jq $(OUT)/reduction/$*.brdf.json \
 	  $(OUT)/reduction/$*.cache.json $(OUT)/reduction/$*.json $@.json > $@.tmp && mv $@.tmp $@
 
-.SECONDARY:
+# Kept, though nothing names them.
+.PRECIOUS: $(foreach e,brdf brdf.json cache cache.json exr json csv,$(OUT)/reduction/%.$(e)) \
+  $(OUT)/unbiased/%.exr $(OUT)/unbiased/%.json
 $(OUT)/reduction.csv: $(THRESHOLDS:%=$(OUT)/reduction/%.csv) $(OUT)/.options/reduction
 	@(echo threshold,brdf_components,cache_components,relmse,relmse_trimmed,edge_us,brdf_bytes,cache_bytes,method; \
 	  cat $(THRESHOLDS:%=$(OUT)/reduction/%.csv)) > $@.tmp && mv $@.tmp $@
