@@ -67,8 +67,9 @@ void RenderOptions::validate() const {
 float default_share(RenderMode mode) { return needs_fits(mode) ? 0.3f : 0.5f; }
 
 bool learns_shares(const RenderOptions& options) {
-  return options.share_rule != ShareRule::fixed && options.mode != RenderMode::bsdf &&
-         options.mode != RenderMode::ris;
+  if (options.mode == RenderMode::bsdf || options.mode == RenderMode::ris) return false;
+  if (options.share_rule == ShareRule::automatic) return options.mode == RenderMode::illumination;
+  return options.share_rule == ShareRule::learned;
 }
 
 PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& options) {

@@ -70,12 +70,20 @@ TrainingTree::TrainingTree(const GuideCache& previous)
   }
 }
 
+// A long training makes both more cells and better ones: beyond kFineTraining photons the threshold
+// grows with their square root. Finer cells would cost more to look up than they save in variance.
+static double photons_before_split(const TreeOptions& tree, double now) {
+  constexpr double kFineTraining = 5e6;
+  return static_cast<double>(tree.photons_per_cell) * std::sqrt(std::max(1.0, now / kFineTraining));
+}
+
 void TrainingTree::split_full_cells(const TreeOptions& tree, const CellTrainingOptions& options,
                                     double now) {
   const uint32_t count = static_cast<uint32_t>(cells_.size());
+  const double threshold = photons_before_split(tree, now);
   for (uint32_t i = 0; i < count && cells_.size() < tree.max_cells; ++i) {
     const CellTraining& training = cells_[i].training();
-    if (training.count <= static_cast<float>(tree.photons_per_cell)) continue;
+    if (training.count <= threshold) continue;
     if (depth_[i] >= kMaxTreeDepth) continue;
     const auto where = choose_split(training, tree.normal_spread, tree.min_extent);
     if (where) split(i, *where, tree, options, now);

@@ -115,7 +115,7 @@ void add_frame(CLI::App& app, RenderArguments& frame) {
 void add_sharing(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--bsdf-share", arguments.bsdf_share,
                  "Share of BSDF sampling where there is a guide: 0.01 to 1, learned per cell, or "
-                 "auto: learned, 0.5 in mode ris")
+                 "auto: learned in mode illumination, else 0.3, and 0.5 in ris")
       ->type_name("SHARE");
   app.add_option("--candidates", arguments.options.candidates, "Directions that ris chooses from");
 }
