@@ -92,12 +92,14 @@ TEST_F(SlowRenderModes, ResamplingHasTheMeanOfPathTracingWithFewCandidatesAndMan
   }
 }
 
+// share 0: learned.
 RenderSummary summary_of(const Scene& scene, const Trained& trained, RenderMode mode, float share) {
   RenderOptions options;
   options.mode = mode;
   options.spp = 256;
   options.seed = 5;
-  if (share > 0) options.share_rule = ShareRule::fixed, options.bsdf_share = share;
+  options.share_rule = share > 0 ? ShareRule::fixed : ShareRule::learned;
+  if (share > 0) options.bsdf_share = share;
   RenderSummary summary;
   render(scene, trained.caches(), options, &summary, {});
   return summary;
