@@ -6,6 +6,7 @@
 
 #include "libguide/math/types.h"
 #include "libguide/records/gaussian.h"
+#include "libguide/records/medium_cache.h"
 #include "libguide/records/quantity.h"
 #include "libguide/spatial/orientation_tree.h"
 
@@ -66,6 +67,7 @@ struct GuideCache {
   // to, in increasing order, and the luminance of the importons in each position cell of each.
   std::vector<uint32_t> escape_bins;
   std::vector<float> escape_weights;  // EscapeMap::kCells for each bin
+  MediumCache medium;                 // without cells where the scene has no media
 };
 
 }  // namespace waylight

@@ -28,12 +28,22 @@ struct Escape {
   uint32_t path_depth = 0;
 };
 
+// A particle in a medium: one sample of the fluence along one of its flights. The sum of weights
+// over all in a region estimates the integral of the fluence over its volume.
+struct MediumPhoton {
+  Vec3 position;
+  Vec3 direction;  // unit, where the light comes from: against the flight
+  Color weight;    // W m
+  uint32_t path_depth = 0;  // scattering events since emission; 0 is direct light
+};
+
 // How many particles and photons, and how the particles ended.
 struct PhotonCounts {
   uint64_t emitted = 0, stored = 0;
   uint64_t left_scene = 0, absorbed = 0, too_deep = 0;
   uint64_t invalid = 0;  // photons dropped for a NaN or infinite power or place
   uint64_t escapes = 0;  // stored beside the photons
+  uint64_t in_media = 0;  // photons of media, stored beside those of surfaces
 
   PhotonCounts& operator+=(const PhotonCounts& other) {
     emitted += other.emitted;
@@ -43,6 +53,7 @@ struct PhotonCounts {
     too_deep += other.too_deep;
     invalid += other.invalid;
     escapes += other.escapes;
+    in_media += other.in_media;
     return *this;
   }
 };
@@ -51,6 +62,7 @@ struct PhotonCounts {
 struct PhotonRecords {
   std::vector<Photon> photons;
   std::vector<Escape> escapes;
+  std::vector<MediumPhoton> in_media;
   PhotonCounts counts;
 };
 
