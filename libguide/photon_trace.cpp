@@ -32,6 +32,7 @@ void trace_block(const PhotonTracer& tracer, const PhotonTraceOptions& options, 
                  PhotonRecords* block) {
   block->photons.clear();
   block->escapes.clear();
+  block->in_media.clear();
   block->counts = {};
   const uint64_t last = std::min(first + kParticlesPerBlock, options.count);
   for (uint64_t i = first; i < last; ++i) {

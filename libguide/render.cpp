@@ -88,7 +88,9 @@ class Renderer {
         camera_(sensor_),
         filter_(crop_),
         guiding_(caches.brdf, caches.guide, scene.description().materials),
-        tracer_(scene, guiding_, tracer_options(scene, options)),
+        camera_medium_(sensor_.medium != kNone ? sensor_.medium
+                                               : scene.medium_at(camera_.origin())),
+        tracer_(scene, guiding_, tracer_options(scene, options), camera_medium_),
         film_(crop_.crop_width, crop_.crop_height),
         tiles_x_((film_.width() + kTile - 1) / kTile),
         tiles_y_((film_.height() + kTile - 1) / kTile),
@@ -133,7 +135,7 @@ class Renderer {
     pilot.render_paths = uint64_t(options_.spp) * crop_.width * crop_.height;
     PathTracerOptions options = tracer_options(scene_, options_);
     options.max_split = 1;
-    const PathTracer unsplit(scene_, guiding_, options);
+    const PathTracer unsplit(scene_, guiding_, options, camera_medium_);
     guiding_.learned(learn_shares(unsplit, sensor_, guiding_.guide().cells.size(), pilot, [&] {
       return control_.stopped() ||
              (options_.time > 0 && seconds_since(start) > options_.time / kTimeOfPilot);
@@ -202,6 +204,7 @@ class Renderer {
   Camera camera_;
   FilterSampler filter_;
   GuidingCaches guiding_;
+  int camera_medium_;
   PathTracer tracer_;
   PixelEstimates estimates_;
   Film film_;

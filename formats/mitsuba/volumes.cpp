@@ -46,10 +46,10 @@ void rescale(Properties& properties, VolumeGrid& grid) {
   for (float& value : grid.values) value *= wanted / most;
 }
 
-void check_lookup(Properties& properties) {
-  static const std::map<std::string, bool> kFilters = {{"trilinear", true}};
+void read_lookup(Properties& properties, VolumeGrid& grid) {
+  static const std::map<std::string, bool> kNearest = {{"trilinear", false}, {"nearest", true}};
   static const std::map<std::string, bool> kModes = {{"clamp", true}};
-  choose(properties, "filter_type", kFilters, "trilinear");
+  grid.nearest = choose(properties, "filter_type", kNearest, "trilinear");
   choose(properties, "wrap_mode", kModes, "clamp");
   properties.ignore({"send_data", "raw", "accel"});
 }
@@ -68,7 +68,7 @@ VolumeTexture import_grid(ImportContext& context, Properties& properties) {
   if (!(std::abs(grid->grid_to_world.determinant()) > 0))
     fail_at(properties.element(), "its to_world has no inverse");
   rescale(properties, *grid);
-  check_lookup(properties);
+  read_lookup(properties, *grid);
   return grid;
 }
 

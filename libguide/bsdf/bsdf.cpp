@@ -153,6 +153,14 @@ Color Bsdf::mean_reflectance() const {
   return sum;
 }
 
+Color Bsdf::straight_transmission(const Vec3& wo) const {
+  Color sum = Color::Zero();
+  for (int i = 0; i < count_; ++i)
+    if (const ThinDielectric* pane = std::get_if<ThinDielectric>(&lobes_[i]))
+      sum += weights_[i] * pane->straight_transmission(wo);
+  return sum;
+}
+
 bool Bsdf::has_smooth() const {
   for (int i = 0; i < count_; ++i)
     if (with(lobes_[i], []<typename L>(const L&) { return !kOnlyDelta<L>; })) return true;

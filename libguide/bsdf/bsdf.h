@@ -27,6 +27,7 @@ class Bsdf {
   float delta_prob(const Vec3& wo) const;
   std::optional<BsdfSample> sample_delta(const Vec3& wo, float u) const;
   Color mean_reflectance() const;
+  Color straight_transmission(const Vec3& wo) const;  // what goes through on a straight line
 
   bool has_smooth() const;           // some lobe has a density
   bool transmissive() const;         // some lobe, delta or smooth, sends light to the other side
@@ -84,10 +85,13 @@ ResolvedBsdf resolve(std::span<const Material> materials, int material, const Sh
 // front.
 Bsdf resolve_mean(std::span<const Material> materials, int material);
 
+// Refractive indices whose ratio differs from 1 by less are one medium: nothing is refracted.
+inline constexpr float kMatchedEta = 1e-4f;
+
 // Probability that a ray meets the surface at all: 0 for `null`, the opacity of a mask, 1
 // otherwise.
 float opacity(std::span<const Material> materials, int material, const Vec2& uv);
-// Whether opacity can be below 1 anywhere.
+// Whether light can go straight through anywhere: where opacity is below 1, and through panes.
 bool may_be_transparent(std::span<const Material> materials, int material);
 
 }  // namespace waylight

@@ -27,6 +27,7 @@ struct BsdfSample {
   Color weight;   // smooth: eval / pdf; delta: f / probability of this direction
   float pdf = 0;  // smooth: per steradian; delta: discrete probability
   float eta = 1;  // n(side of wi) / n(side of wo) when refracted, else 1
+  bool straight = false;  // wi = -wo: through a pane, which next-event estimation sees through too
 };
 
 // Shares of light, luminance in [0, 1], that come from the side of wo and from the other.

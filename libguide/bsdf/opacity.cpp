@@ -23,6 +23,9 @@ bool transparent(std::span<const Material> materials, int index, int depth) {
   const MaterialModel& model = wrapped_material(materials, index, depth).model;
   const auto nested = [&](int i) { return transparent(materials, i, depth + 1); };
   if (std::holds_alternative<NullMaterial>(model)) return true;
+  if (std::holds_alternative<ThinDielectricMaterial>(model)) return true;
+  if (const auto* m = std::get_if<RoughDielectricMaterial>(&model))
+    return std::abs(m->eta - 1) < kMatchedEta;
   if (const auto* m = std::get_if<TwoSidedMaterial>(&model)) return nested(m->front);
   if (const auto* m = std::get_if<MaskMaterial>(&model)) {
     const bool opaque = m->opacity.constant() && m->opacity.eval_scalar(Vec2::Zero()) >= 1;

@@ -6,7 +6,6 @@ namespace waylight {
 namespace {
 
 // Within this of 1 an interface is index-matched: light passes straight through.
-constexpr float kMatchedEta = 1e-4f;
 
 float alpha(const Lookup& lookup, const Texture& texture) {
   const float a = lookup.scalar(texture);

@@ -24,7 +24,10 @@ struct ThinDielectric {
                                    transmittance * specular_transmittance.mean());
     if (u < prob) return BsdfSample{reflect(wo), specular_reflectance * (reflectance / prob), prob};
     if (!(transmittance > 0)) return std::nullopt;
-    return BsdfSample{-wo, specular_transmittance * (transmittance / (1 - prob)), 1 - prob};
+    return BsdfSample{-wo, specular_transmittance * (transmittance / (1 - prob)), 1 - prob, 1, true};
+  }
+  Color straight_transmission(const Vec3& wo) const {
+    return (1 - pane_reflectance(wo)) * specular_transmittance;
   }
   Color mean_reflectance() const {
     const float f = fresnel_diffuse_reflectance(eta), pane = 2 * f / (1 + f);

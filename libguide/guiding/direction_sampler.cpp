@@ -135,7 +135,7 @@ std::optional<DirectionSample> DirectionSampler::sample_delta(float u) const {
   const Color weight = s->weight / delta_prob_;
   const Vec3 wi = resolved_.frame.to_world(s->wi);
   if (!same_side(wi, s->wi)) return std::nullopt;
-  return DirectionSample{wi, weight, 0, true, s->eta, weight};
+  return DirectionSample{wi, weight, 0, true, s->eta, weight, 0, 0, s->straight};
 }
 
 std::optional<DirectionSampler::Candidate> DirectionSampler::sample_smooth(float u, float u_lobe,

@@ -29,6 +29,7 @@ struct DirectionSample {
   Color bsdf_weight;  // the weight that BSDF sampling would have given; drives Russian roulette
   // Given the smooth part, per steradian: of BSDF sampling, and of what share 0 of it would leave.
   float bsdf_pdf = 0, guide_pdf = 0;
+  bool straight = false;  // through a pane: no vertex of the path
 };
 
 // Density over the smooth part:

@@ -20,6 +20,7 @@ using PhaseFunction = std::variant<IsotropicPhase, HenyeyGreenstein>;
 struct VolumeGrid {
   Eigen::Vector3i size = Eigen::Vector3i::Zero();
   int channels = 1;
+  bool nearest = false;  // the voxel's value, instead of trilinear interpolation
   std::vector<float> values;
   Mat4 grid_to_world = Mat4::Identity();  // [0,1]^3 of the grid to the world
 };

@@ -17,6 +17,7 @@ class Camera {
   // square, used by the thin lens alone. Importance is one: a camera ray carries radiance straight
   // to its pixel. The principal offset is Mitsuba's: it is added to the position on the film.
   Ray ray(const Vec2& pixel, const Vec2& u_lens) const;
+  const Vec3& origin() const { return origin_; }  // of its lens, the centre
   int width() const { return width_; }
   int height() const { return height_; }
 

@@ -12,7 +12,7 @@ namespace {
 std::vector<bool> transparent_materials(const std::vector<Material>& materials) {
   std::vector<bool> result;
   for (int i = 0; i < static_cast<int>(materials.size()); ++i)
-    result.push_back(may_be_transparent(materials, i));
+    result.push_back(waylight::may_be_transparent(materials, i));
   return result;
 }
 
@@ -24,7 +24,7 @@ constexpr int kMaxCrossings = 1000;
 
 struct Scene::Impl {
   std::vector<std::string> warnings;
-  std::vector<bool> placed;
+  std::vector<bool> placed, transparent;  // transparent: of each material
   std::vector<Placement> placements;
   std::unique_ptr<Accelerator> accelerator;
   LightSet lights;
@@ -76,9 +76,11 @@ Scene::Scene(SceneDescription description)
   bounds_ = scene_bounds(description_, impl_->placed);
   for (const Instance& instance : description_.instances)
     impl_->placements.emplace_back(instance.to_world);
-  impl_->accelerator = std::make_unique<Accelerator>(
-      description_, transparent_materials(description_.materials), impl_->placed);
+  impl_->transparent = transparent_materials(description_.materials);
+  impl_->accelerator =
+      std::make_unique<Accelerator>(description_, impl_->transparent, impl_->placed);
   impl_->lights = LightSet(description_, SceneSphere(bounds_));
+  for (const Medium& medium : description_.media) media_.emplace_back(medium);
 }
 
 Scene::~Scene() = default;
@@ -89,14 +91,14 @@ std::optional<SurfacePoint> Scene::intersect(const Ray& ray) const {
   return impl_->intersect(description_, ray, kEverything);
 }
 
-Ray Scene::spawn_ray(const SurfacePoint& from, const Vec3& direction) const {
+Ray Scene::spawn_ray(const RayOrigin& from, const Vec3& direction) const {
   return {offset_origin(from, direction), direction};
 }
 
 namespace {
 
 // From the surface to just before the target; empty when rounding cannot tell the two apart.
-std::optional<Ray> shadow_ray(const SurfacePoint& from, const Vec3& wi, float distance) {
+std::optional<Ray> shadow_ray(const RayOrigin& from, const Vec3& wi, float distance) {
   const Vec3 origin = offset_origin(from, wi);
   if (distance == kInfinity) return Ray{origin, wi};
   const Vec3 target = from.p + distance * wi;
@@ -110,21 +112,59 @@ std::optional<Ray> shadow_ray(const SurfacePoint& from, const Vec3& wi, float di
 
 }  // namespace
 
-float Scene::visibility(const SurfacePoint& from, const Vec3& wi, float distance) const {
+Color Scene::visibility(const RayOrigin& from, const Vec3& wi, float distance) const {
+  return pass(from, kNone, wi, distance, nullptr);
+}
+
+Color Scene::transmittance(const RayOrigin& from, int medium, const Vec3& wi, float distance,
+                           Sampler& path) const {
+  if (!has_media()) return visibility(from, wi, distance);
+  RandomStream random(path);
+  return pass(from, medium, wi, distance, &random);
+}
+
+// random: null leaves media out. The margin at the far end is for surfaces; media fill it.
+Color Scene::pass(const RayOrigin& from, int medium, const Vec3& wi, float distance,
+                  RandomStream* random) const {
   std::optional<Ray> ray = shadow_ray(from, wi, distance);
-  if (!ray) return 1;
-  if (impl_->accelerator->occluded(*ray, kOpaque)) return 0;
-  if (!impl_->accelerator->has_transparent()) return 1;
-  float share = 1;
-  for (int crossing = 0; crossing < kMaxCrossings && ray; ++crossing) {
-    const std::optional<SurfacePoint> at = impl_->intersect(description_, *ray, kTransparent);
+  if (!ray) return Color::Ones();
+  if (impl_->accelerator->occluded(*ray, kOpaque)) return Color::Zero();
+  const float margin = distance == kInfinity ? 0.0f : std::max(distance - ray->t_max, 0.0f);
+  const bool transparent = impl_->accelerator->has_transparent();
+  Color share = Color::Ones();
+  for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
+    std::optional<SurfacePoint> at;
+    if (transparent) at = impl_->intersect(description_, *ray, kTransparent);
+    if (random && medium != kNone)
+      share *= media_[medium].transmittance(*ray, at ? at->t : ray->t_max + margin, *random);
     if (!at) return share;
-    share *= 1 - opacity(*at);
-    if (share <= 0) return 0;
-    const float left = ray->t_max - at->t;
-    ray = Ray{offset_origin(*at, ray->direction), ray->direction, left};
+    share *= straight_transmission(*at, ray->direction);
+    if (is_black(share)) return share;
+    medium = medium_beyond(*at, ray->direction, medium);
+    ray = Ray{offset_origin(*at, ray->direction), ray->direction, ray->t_max - at->t};
   }
-  return 0;
+  return Color::Zero();
+}
+
+// Of a surface that may be transparent.
+Color Scene::straight_transmission(const SurfacePoint& at, const Vec3& direction) const {
+  const float met = opacity(at);
+  if (!(met > 0)) return Color::Ones();
+  const ResolvedBsdf resolved = bsdf(at, -direction, TransportMode::radiance);
+  return 1 - met + met * resolved.bsdf.straight_transmission(resolved.frame.to_local(-direction));
+}
+
+int Scene::medium_at(const Vec3& p) const {
+  if (!has_media()) return kNone;
+  Ray ray{p, Vec3(0.5377f, 0.7219f, 0.4356f).normalized()};
+  for (int crossing = 0; crossing < kMaxCrossings; ++crossing) {
+    const std::optional<SurfacePoint> at = intersect(ray);
+    if (!at) return kNone;
+    if (at->interior_medium != kNone || at->exterior_medium != kNone)
+      return medium_beyond(*at, -ray.direction, kNone);
+    ray = spawn_ray(*at, ray.direction);
+  }
+  return kNone;
 }
 
 ResolvedBsdf Scene::bsdf(const SurfacePoint& at, const Vec3& wo, TransportMode mode) const {
@@ -168,6 +208,10 @@ std::optional<EmissionSample> Scene::emit(int emitter, float u, const Vec2& u_po
 }
 
 float Scene::emission_prob(int emitter) const { return impl_->lights.emission_prob(emitter); }
+
+bool Scene::may_be_transparent(const SurfacePoint& at) const {
+  return at.material != kNone && impl_->transparent[at.material];
+}
 
 bool Scene::has_lights() const { return !impl_->lights.empty(); }
 

@@ -7,24 +7,38 @@
 #include <vector>
 
 #include "libguide/bsdf/bsdf.h"
+#include "libguide/medium/medium_tracker.h"
 #include "libguide/scene/scene_description.h"
 
 namespace waylight {
 
+// Where rays begin: a point of a medium as it is, or of a surface.
+struct RayOrigin {
+  Vec3 p = Vec3::Zero();
+  // Unit; on the emitting side of an area light. Where a mesh has vertex normals these decide the
+  // side, not the winding (as in Mitsuba).
+  Vec3 ng = Vec3::Zero();
+  float p_error = 0;  // along each axis: how far from p a new ray must begin to clear the surface
+};
+
 // A point on a surface, in world space.
-struct SurfacePoint {
+struct SurfacePoint : RayOrigin {
   float t = 0;
-  Vec3 p;
-  // Unit; ng on the emitting side of an area light, ns on the side of ng. Where a mesh has vertex
-  // normals these decide the side, not the winding (as in Mitsuba).
-  Vec3 ng, ns;
+  Vec3 ns;  // unit, on the side of ng
   Vec3 dpdu, dpdv;
   Vec2 uv;
   int material = kNone, emitter = kNone;  // no material: a black absorber
   int interior_medium = kNone, exterior_medium = kNone;
   uint32_t shape = 0;  // index into SceneDescription::shapes (or group_shapes when instanced)
-  float p_error = 0;   // along each axis: how far from p a new ray must begin to clear the surface
 };
+
+// The medium that a ray is in once it has left a surface towards `direction`: the one that the
+// surface names on that side, or none; `current` where it names none on either side. So of media
+// that overlap, the boundary crossed last decides, as in Mitsuba.
+inline int medium_beyond(const SurfacePoint& at, const Vec3& direction, int current) {
+  if (at.interior_medium == kNone && at.exterior_medium == kNone) return current;
+  return at.ng.dot(direction) < 0 ? at.interior_medium : at.exterior_medium;
+}
 
 // A direction to a light as seen from a point. radiance is before visibility; for a delta light
 // (point, spot, directional) it is the incident irradiance on a plane facing it.
@@ -61,15 +75,25 @@ class Scene {
   std::optional<SurfacePoint> intersect(const Ray& ray) const;
 
   // Origin moved off the surface by its error bound, to the side of `direction`.
-  Ray spawn_ray(const SurfacePoint& from, const Vec3& direction) const;
-  // Share of light that passes from the surface point along wi over `distance` (infinite allowed):
-  // the product of 1 - opacity over the surfaces between; 0 when blocked. The last 1e-4 of a finite
-  // distance are not looked at, so that the light does not block itself. Beyond 1000 transparent
-  // surfaces it is 0.
-  float visibility(const SurfacePoint& from, const Vec3& wi, float distance) const;
+  Ray spawn_ray(const RayOrigin& from, const Vec3& direction) const;
+  // Share of light that passes from a point along wi over `distance` (infinite allowed): the
+  // product of 1 - opacity, and of what panes transmit, over the surfaces between; 0 when blocked.
+  // The last 1e-4 of a finite distance are not looked at, so that the light does not block itself.
+  // Beyond 1000 transparent surfaces it is 0.
+  Color visibility(const RayOrigin& from, const Vec3& wi, float distance) const;
+  // The same with the transmittance of media, an unbiased estimate. medium: the one that the ray
+  // starts in. Draws from `path` only where there are media.
+  Color transmittance(const RayOrigin& from, int medium, const Vec3& wi, float distance,
+                      Sampler& path) const;
+
+  bool has_media() const { return !media_.empty(); }
+  const MediumTracker& medium(int index) const { return media_[index]; }
+  // The medium around a point that is on no surface, told by the first boundary in some direction.
+  int medium_at(const Vec3& p) const;
 
   ResolvedBsdf bsdf(const SurfacePoint& at, const Vec3& wo, TransportMode mode) const;
   float opacity(const SurfacePoint& at) const;
+  bool may_be_transparent(const SurfacePoint& at) const;  // or pass light straight on
 
   // Radiance that an area light's surface sends towards wo; zero off the emitting side.
   Color emitted(const SurfacePoint& at, const Vec3& wo) const;
@@ -98,9 +122,14 @@ class Scene {
   bool has_distant_light() const;  // and some that has is not within the scene's bounds
 
  private:
+  Color straight_transmission(const SurfacePoint& at, const Vec3& direction) const;
+  Color pass(const RayOrigin& from, int medium, const Vec3& wi, float distance,
+             RandomStream* random) const;
+
   struct Impl;  // Embree's handles and the emitters' tables
   SceneDescription description_;
   Bounds bounds_;
+  std::vector<MediumTracker> media_;
   std::unique_ptr<Impl> impl_;
 };
 

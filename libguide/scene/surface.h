@@ -37,7 +37,7 @@ bool intersect_sphere(const Sphere& sphere, const Eigen::Vector3d& origin,
 // each axis, which no rounding in the point, the sum or Embree's test can undo. The idea is that of
 // [Waechter, Binder 2019]; their constants are for unknown errors and would cost a scene that lies
 // 1e5 from the origin some metres.
-inline Vec3 offset_origin(const SurfacePoint& point, const Vec3& direction) {
+inline Vec3 offset_origin(const RayOrigin& point, const Vec3& direction) {
   const float distance = point.p_error * point.ng.lpNorm<1>();
   return point.p + (direction.dot(point.ng) < 0 ? -distance : distance) * point.ng;
 }

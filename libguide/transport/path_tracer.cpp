@@ -8,16 +8,23 @@
 namespace waylight {
 namespace {
 
-constexpr int kMaxCrossings = 1000;       // transparent surfaces in a row before a path is given up
 constexpr int kUnlimitedDepth = 1 << 20;  // bound of "no limit": roulette ends paths long before
 constexpr int kLongPath = 100;            // edges; beyond, roulette is by throughput as well
 constexpr float kMinSurvival = 0.05f;
+constexpr uint32_t kNoCell = ~0u;
 
 // Power heuristic with exponent two for one sample of each technique [Veach 1997, 9.2.4].
 float mis_weight(float pdf, float other) {
   if (!(pdf < 1e18f)) return 1;
   const float ratio = other / pdf;
   return 1 / (1 + ratio * ratio);
+}
+
+uint32_t cell_of(const GuidingCaches& caches, const DirectionSampler& directions) {
+  return directions.cell() ? caches.index(*directions.cell()) : kNoCell;
+}
+uint32_t cell_of(const GuidingCaches& /*caches*/, const PhaseSampler& /*directions*/) {
+  return kNoCell;
 }
 
 }  // namespace
@@ -34,8 +41,9 @@ struct PathTracer::State {
   bool specular;              // it came from a delta lobe or the camera
   bool has_estimate;          // roulette at this vertex went by the caches
   int edges;
+  int medium;  // that `ray` is in, or kNone
 
-  void weigh(float factor) {
+  void weigh(const Color& factor) {
     throughput *= factor;
     roulette_throughput *= factor;
   }
@@ -73,7 +81,8 @@ struct PathTracer::Walk {
 PathRecord PathTracer::trace(const Ray& ray, const Sampler& sampler,
                              const PathContext& context) const {
   Walk walk(context);
-  State state{ray, sampler, Color::Ones(), Color::Ones(), 1, ray.origin, 0, true, false, 1};
+  State state{ray,   sampler, Color::Ones(), Color::Ones(), 1, ray.origin, 0, true,
+              false, 1,       camera_medium_};
   walk.reach(1);
   for (;;) {
     while (advance(walk, state)) {
@@ -85,45 +94,81 @@ PathRecord PathTracer::trace(const Ray& ray, const Sampler& sampler,
 
 // Follows one edge and scatters at its end; false when the path is over.
 bool PathTracer::advance(Walk& walk, State& state) const {
-  const std::optional<SurfacePoint> at = next_surface(walk, state);
-  if (!at) return false;
-  add_emission(walk, state, *at);
-  const int max_depth = options_.max_depth < 0 ? kUnlimitedDepth : options_.max_depth;
-  if (state.edges >= max_depth) return false;
-
-  const Vec3 wo = -state.ray.direction;
-  const DirectionSampler directions(scene_, caches_, options_.directions, *at, wo);
-  if (state.edges == 1) {
-    walk.record.albedo = directions.resolved().bsdf.mean_reflectance();
-    walk.record.normal = directions.resolved().frame.n;
-    walk.record.depth = at->t;
-  }
-  if (directions.has_smooth()) add_direct_light(walk, state, *at, directions);
-  const int copies = choose_copies(walk, state, directions);
-  if (copies == 1) return scatter(walk, state, *at, directions);
-  if (copies > 1) return scatter_copies(walk, state, copies, *at, directions);
-  ++walk.record.killed;
+  const PathVertex vertex = next_vertex(walk, state);
+  if (const auto* at = std::get_if<SurfacePoint>(&vertex)) return visit(walk, state, *at);
+  if (const auto* at = std::get_if<MediumPoint>(&vertex)) return visit(walk, state, *at);
   return false;
 }
 
-// The next surface that is really met: transparent ones are crossed with probability 1 - opacity.
-std::optional<SurfacePoint> PathTracer::next_surface(Walk& walk, State& state) const {
+// The next vertex that is really met: transparent surfaces are crossed with probability
+// 1 - opacity, and media with the probability of the flight.
+PathVertex PathTracer::next_vertex(Walk& walk, State& state) const {
   float crossed = 0;
   for (int i = 0; i < kMaxCrossings; ++i) {
     ++walk.record.rays;
     std::optional<SurfacePoint> at = scene_.intersect(state.ray);
+    if (state.medium != kNone)
+      if (const auto event = fly(state, at ? at->t : kInfinity, crossed)) return *event;
     if (!at) {
       add_environment(walk, state);
-      return std::nullopt;
+      return {};
     }
     const float opacity = scene_.opacity(*at);
     at->t += crossed;
-    if (opacity >= 1 || (opacity > 0 && state.sampler.next() < opacity)) return at;
+    if (opacity >= 1 || (opacity > 0 && state.sampler.next() < opacity)) return *at;
     if (at->emitter != kNone) add_emission(walk, state, *at);
     crossed = at->t;
+    state.medium = medium_beyond(*at, state.ray.direction, state.medium);
     state.ray = scene_.spawn_ray(*at, state.ray.direction);
   }
-  return std::nullopt;
+  return {};
+}
+
+// One flight through the medium of the ray; empty when it passes.
+std::optional<MediumPoint> PathTracer::fly(State& state, float t_max, float crossed) const {
+  const MediumTracker& medium = scene_.medium(state.medium);
+  const Flight flight = medium.fly(state.ray, t_max, state.throughput, state.sampler);
+  state.weigh(flight.weight);
+  if (!flight.scattered) return std::nullopt;
+  state.weigh(flight.here.albedo);
+  return medium_point(medium, state.ray, flight, crossed);
+}
+
+bool PathTracer::too_deep(const State& state) const {
+  return state.edges >= (options_.max_depth < 0 ? kUnlimitedDepth : options_.max_depth);
+}
+
+bool PathTracer::visit(Walk& walk, State& state, const SurfacePoint& at) const {
+  add_emission(walk, state, at);
+  if (too_deep(state) && !scene_.may_be_transparent(at)) return false;
+  const DirectionSampler directions(scene_, caches_, options_.directions, at, -state.ray.direction);
+  if (state.edges == 1) {
+    walk.record.albedo = directions.resolved().bsdf.mean_reflectance();
+    walk.record.normal = directions.resolved().frame.n;
+    walk.record.depth = at.t;
+  }
+  return go_on(walk, state, at, directions);
+}
+
+bool PathTracer::visit(Walk& walk, State& state, const MediumPoint& at) const {
+  if (too_deep(state) || is_black(state.throughput)) return false;
+  const PhaseSampler directions(at.medium->phase(), -state.ray.direction);
+  if (state.edges == 1) {
+    walk.record.albedo = at.albedo;
+    walk.record.depth = at.t;
+  }
+  return go_on(walk, state, at, directions);
+}
+
+template <typename At, typename Directions>
+bool PathTracer::go_on(Walk& walk, State& state, const At& at, const Directions& directions) const {
+  if (too_deep(state)) return scatter(walk, state, at, directions);
+  if (directions.has_smooth()) add_direct_light(walk, state, at, directions);
+  const int copies = choose_copies(walk, state, directions);
+  if (copies == 1) return scatter(walk, state, at, directions);
+  if (copies > 1) return scatter_copies(walk, state, copies, at, directions);
+  ++walk.record.killed;
+  return false;
 }
 
 void PathTracer::add_emission(Walk& walk, const State& state, const SurfacePoint& at) const {
@@ -146,23 +191,26 @@ void PathTracer::add_environment(Walk& walk, const State& state) const {
   walk.add(state.edges, state.throughput * radiance * weight);
 }
 
-void PathTracer::add_direct_light(Walk& walk, State& state, const SurfacePoint& at,
-                                  const DirectionSampler& directions) const {
+template <typename At, typename Directions>
+void PathTracer::add_direct_light(Walk& walk, State& state, const At& at,
+                                  const Directions& directions) const {
   const float u = state.sampler.next();
   const std::optional<LightSample> light = scene_.sample_light(at.p, u, state.sampler.next_2d());
   if (!light || !(light->pdf > 0)) return;
   const EvalPdf f = directions.evaluate(light->wi);
   if (is_black(f.value)) return;
   ++walk.record.rays;
-  const float visibility = scene_.visibility(at, light->wi, light->distance);
-  if (visibility <= 0) return;
+  const Color visibility = scene_.transmittance(at, medium_after(at, light->wi, state.medium),
+                                                light->wi, light->distance, state.sampler);
+  if (is_black(visibility)) return;
   const float weight = light->is_delta ? 1.0f : mis_weight(light->pdf, f.pdf);
   walk.add(state.edges + 1,
-           state.throughput * f.value * light->radiance * (visibility * weight / light->pdf));
+           state.throughput * f.value * light->radiance * visibility * (weight / light->pdf));
 }
 
 // Guided roulette and splitting: how many copies of the path go on from this vertex.
-int PathTracer::choose_copies(Walk& walk, State& state, const DirectionSampler& directions) const {
+template <typename Directions>
+int PathTracer::choose_copies(Walk& walk, State& state, const Directions& directions) const {
   state.has_estimate = false;
   if (options_.roulette != Roulette::guided) return 1;
   const float estimate = directions.reflected_estimate();
@@ -174,13 +222,14 @@ int PathTracer::choose_copies(Walk& walk, State& state, const DirectionSampler& 
   const int room = walk.room(options_.max_split);
   if (!WeightWindow::leaves(q, room)) return 1;
   const Population population = WeightWindow::decide(q, room, state.sampler.next());
-  state.weigh(population.weight);
+  state.weigh(Color::Constant(population.weight));
   return population.copies;
 }
 
 // One copy goes on at once, the others wait.
-bool PathTracer::scatter_copies(Walk& walk, State& state, int copies, const SurfacePoint& at,
-                                const DirectionSampler& directions) const {
+template <typename At, typename Directions>
+bool PathTracer::scatter_copies(Walk& walk, State& state, int copies, const At& at,
+                                const Directions& directions) const {
   walk.record.copies += copies - 1;
   for (int i = 1; i < copies; ++i) {
     State& copy = *std::construct_at(&walk.waiting[walk.waiting_count], state);
@@ -191,8 +240,9 @@ bool PathTracer::scatter_copies(Walk& walk, State& state, int copies, const Surf
   return scatter(walk, state, at, directions);
 }
 
-bool PathTracer::scatter(Walk& walk, State& state, const SurfacePoint& at,
-                         const DirectionSampler& directions) const {
+template <typename At, typename Directions>
+bool PathTracer::scatter(Walk& walk, State& state, const At& at,
+                         const Directions& directions) const {
   const std::optional<DirectionSample> next = directions.sample(state.sampler);
   if (directions.has_smooth()) {
     ++walk.record.scatterings;
@@ -200,15 +250,19 @@ bool PathTracer::scatter(Walk& walk, State& state, const SurfacePoint& at,
     walk.record.bsdf_share += directions.bsdf_share();
   }
   if (!next) return false;
-  if (walk.context.guided && directions.cell() && !next->is_delta)
-    walk.context.guided->push_back({caches_.index(*directions.cell()), next->bsdf_pdf,
-                                    next->guide_pdf, next->pdf, luminance(walk.record.radiance)});
+  if (next->straight) return pass_pane(state, at, *next);
+  if (too_deep(state)) return false;
+  const uint32_t cell = walk.context.guided ? cell_of(caches_, directions) : kNoCell;
+  if (cell != kNoCell && !next->is_delta)
+    walk.context.guided->push_back(
+        {cell, next->bsdf_pdf, next->guide_pdf, next->pdf, luminance(walk.record.radiance)});
   state.throughput *= next->weight;
   state.roulette_throughput *= next->bsdf_weight.min(1.0f);
   state.eta_scale *= next->eta * next->eta;
   state.pdf = next->pdf;
   state.specular = next->is_delta;
   state.previous = at.p;
+  state.medium = medium_after(at, next->wi, state.medium);
   state.ray = scene_.spawn_ray(at, next->wi);
   if (is_black(state.throughput)) return false;
   if (!survives_throughput(state)) {
@@ -219,6 +273,16 @@ bool PathTracer::scatter(Walk& walk, State& state, const SurfacePoint& at,
   return true;
 }
 
+// A pane is no vertex: next-event estimation sees through it, so what is met beyond is weighed
+// against that as if there were none.
+template <typename At>
+bool PathTracer::pass_pane(State& state, const At& at, const DirectionSample& through) const {
+  state.weigh(through.weight);
+  state.medium = medium_after(at, through.wi, state.medium);
+  state.ray = scene_.spawn_ray(at, through.wi);
+  return !is_black(state.throughput);
+}
+
 // By the throughput that BSDF sampling would have had: a guided path's own throughput is low by
 // design where light is, and roulette by it kills just the paths that matter.
 bool PathTracer::survives_throughput(State& state) const {
@@ -227,7 +291,7 @@ bool PathTracer::survives_throughput(State& state) const {
   const float expected = state.roulette_throughput.maxCoeff() * state.eta_scale;
   const float survival_prob = std::clamp(expected, kMinSurvival, 0.95f);
   if (state.sampler.next() >= survival_prob) return false;
-  state.weigh(1 / survival_prob);
+  state.weigh(Color::Constant(1 / survival_prob));
   return true;
 }
 

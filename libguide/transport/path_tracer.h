@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "libguide/base/sampler.h"
-#include "libguide/guiding/direction_sampler.h"
+#include "libguide/guiding/phase_sampler.h"
 #include "libguide/scene/scene.h"
+#include "libguide/transport/path_vertex.h"
 #include "libguide/transport/segment_sums.h"
 
 namespace waylight {
@@ -52,8 +53,8 @@ struct PathRecord {
   Color radiance = Color::Zero();
   Color albedo = Color::Zero();
   Vec3 normal = Vec3::Zero();
-  float depth = 0;           // distance to the first surface; 0 when there is none
-  uint32_t edges = 0;        // surfaces that the path scattered at, plus one
+  float depth = 0;           // distance to the first vertex; 0 when there is none
+  uint32_t edges = 0;        // vertices that the path scattered at, plus one
   uint32_t killed = 0;       // times that roulette ended it
   uint32_t copies = 0;       // that splitting added
   uint32_t scatterings = 0;  // smooth ones
@@ -64,8 +65,10 @@ struct PathRecord {
 
 class PathTracer {
  public:
-  PathTracer(const Scene& scene, const GuidingCaches& caches, const PathTracerOptions& options)
-      : scene_(scene), caches_(caches), options_(options) {}
+  // camera_medium: the one that camera rays start in.
+  PathTracer(const Scene& scene, const GuidingCaches& caches, const PathTracerOptions& options,
+             int camera_medium = kNone)
+      : scene_(scene), caches_(caches), options_(options), camera_medium_(camera_medium) {}
 
   PathRecord trace(const Ray& ray, const Sampler& sampler, const PathContext& context = {}) const;
 
@@ -73,21 +76,34 @@ class PathTracer {
   struct State;
   struct Walk;
   bool advance(Walk& walk, State& state) const;
-  std::optional<SurfacePoint> next_surface(Walk& walk, State& state) const;
+  PathVertex next_vertex(Walk& walk, State& state) const;
+  std::optional<MediumPoint> fly(State& state, float t_max, float crossed) const;
+  bool visit(Walk& walk, State& state, const SurfacePoint& at) const;
+  bool visit(Walk& walk, State& state, const MediumPoint& at) const;
+  bool too_deep(const State& state) const;
   void add_emission(Walk& walk, const State& state, const SurfacePoint& at) const;
   void add_environment(Walk& walk, const State& state) const;
-  void add_direct_light(Walk& walk, State& state, const SurfacePoint& at,
-                        const DirectionSampler& directions) const;
-  int choose_copies(Walk& walk, State& state, const DirectionSampler& directions) const;
-  bool scatter_copies(Walk& walk, State& state, int copies, const SurfacePoint& at,
-                      const DirectionSampler& directions) const;
-  bool scatter(Walk& walk, State& state, const SurfacePoint& at,
-               const DirectionSampler& directions) const;
+
+  // At: SurfacePoint with Directions a DirectionSampler, or MediumPoint with a PhaseSampler.
+  template <typename At, typename Directions>
+  bool go_on(Walk& walk, State& state, const At& at, const Directions& directions) const;
+  template <typename At, typename Directions>
+  void add_direct_light(Walk& walk, State& state, const At& at, const Directions& directions) const;
+  template <typename Directions>
+  int choose_copies(Walk& walk, State& state, const Directions& directions) const;
+  template <typename At, typename Directions>
+  bool scatter_copies(Walk& walk, State& state, int copies, const At& at,
+                      const Directions& directions) const;
+  template <typename At, typename Directions>
+  bool scatter(Walk& walk, State& state, const At& at, const Directions& directions) const;
+  template <typename At>
+  bool pass_pane(State& state, const At& at, const DirectionSample& through) const;
   bool survives_throughput(State& state) const;
 
   const Scene& scene_;
   const GuidingCaches& caches_;
   PathTracerOptions options_;
+  int camera_medium_;
 };
 
 }  // namespace waylight

@@ -3,8 +3,6 @@
 namespace waylight {
 namespace {
 
-constexpr int kMaxCrossings = 1000;  // transparent surfaces in a row before a particle is given up
-
 constexpr float kMaxCorrection = 10;
 
 constexpr float kBsdfShare = 0.5f;  // the rest is scattered by importance, where it is known
@@ -43,6 +41,8 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonTracerOptions& option
   }
   if (options_.quantity == Quantity::radiance) return;
   camera_.emplace(scene.description().sensor);
+  const int named = scene.description().sensor.medium;
+  camera_medium_ = named != kNone ? named : scene.medium_at(camera_->origin());
   stores_escapes_ = scene.has_distant_light();
 }
 
@@ -54,30 +54,50 @@ void PhotonTracer::trace(Sampler& sampler, PhotonRecords* records) const {
     ++counts.absorbed;
     return;
   }
+  for (bool alive = true; alive;) {
+    const PathVertex vertex = next_vertex(*particle, records, sampler);
+    const auto* surface = std::get_if<SurfacePoint>(&vertex);
+    const auto* medium = std::get_if<MediumPoint>(&vertex);
+    if (!surface && !medium) return store_escape(*particle, records);
+    alive = surface ? visit(*particle, *surface, records, sampler)
+                    : visit(*particle, *medium, records, sampler);
+  }
+}
+
+bool PhotonTracer::visit(Particle& particle, const SurfacePoint& at, PhotonRecords* records,
+                         Sampler& sampler) const {
   const TransportMode mode =
       options_.quantity == Quantity::radiance ? TransportMode::importance : TransportMode::radiance;
   const DirectionOptions guided{emission_ ? DirectionGuide::illumination : DirectionGuide::none,
                                 kBsdfShare};
-  for (;;) {
-    const std::optional<SurfacePoint> at = next_surface(*particle, sampler);
-    if (!at) {
-      store_escape(*particle, records);
-      return;
-    }
-    const DirectionSampler directions(scene_, guide_, guided, *at, -particle->ray.direction,
-                                      mode);
-    if (stores(*particle, *at, directions.resolved().bsdf)) store(*particle, *at, records);
-    if (static_cast<int>(particle->depth) + 1 >= options_.max_depth) {
-      ++counts.too_deep;
-      return;
-    }
-    const float importance = expected_contribution_ > 0 ? directions.reflected_estimate() : 0;
-    if (!survives_guided(*particle, importance, sampler) ||
-        !scatter(*particle, *at, directions, importance > 0, sampler)) {
-      ++counts.absorbed;
-      return;
-    }
+  const DirectionSampler directions(scene_, guide_, guided, at, -particle.ray.direction, mode);
+  if (stores(particle, at, directions.resolved().bsdf)) store(particle, at, records);
+  if (static_cast<int>(particle.depth) + 1 >= options_.max_depth) {
+    ++records->counts.too_deep;
+    return false;
   }
+  const float importance = expected_contribution_ > 0 ? directions.reflected_estimate() : 0;
+  if (survives_guided(particle, importance, sampler) &&
+      scatter(particle, at, directions, importance > 0, sampler))
+    return true;
+  ++records->counts.absorbed;
+  return false;
+}
+
+bool PhotonTracer::visit(Particle& particle, const MediumPoint& at, PhotonRecords* records,
+                         Sampler& sampler) const {
+  if (static_cast<int>(particle.depth) + 1 >= options_.max_depth) {
+    ++records->counts.too_deep;
+    return false;
+  }
+  const PhaseSampler directions(at.medium->phase(), -particle.ray.direction);
+  const std::optional<DirectionSample> s = directions.sample(sampler);
+  if (s) {
+    particle.ray = {at.p, s->wi};
+    if (go_on(particle, particle.power * at.albedo * s->weight, 1, false, sampler)) return true;
+  }
+  ++records->counts.absorbed;
+  return false;
 }
 
 std::optional<PhotonTracer::Particle> PhotonTracer::start(Sampler& sampler) const {
@@ -88,7 +108,8 @@ std::optional<PhotonTracer::Particle> PhotonTracer::leave_emitter(Sampler& sampl
   const std::optional<EmissionSample> emission =
       emission_ ? emission_->sample(sampler) : plain_emission(scene_, sampler);
   if (!emission || is_black(emission->power)) return std::nullopt;
-  return Particle{emission->ray, emission->power * options_.power_scale};
+  return Particle{emission->ray, emission->power * options_.power_scale, 0,
+                  scene_.medium_at(emission->ray.origin)};
 }
 
 // Uniform over the film, or over its crop window: each pixel is a mean over its own area, and the
@@ -99,18 +120,43 @@ PhotonTracer::Particle PhotonTracer::leave_camera(Sampler& sampler) const {
   Vec2 pixel(u.x() * film.width, u.y() * film.height);
   if (film.crop_width > 0 && film.crop_height > 0)
     pixel = {film.crop_x + u.x() * film.crop_width, film.crop_y + u.y() * film.crop_height};
-  return {camera_->ray(pixel, sampler.next_2d()), Color::Constant(options_.power_scale)};
+  return {camera_->ray(pixel, sampler.next_2d()), Color::Constant(options_.power_scale), 0,
+          camera_medium_};
 }
 
-std::optional<SurfacePoint> PhotonTracer::next_surface(Particle& particle, Sampler& sampler) const {
+PathVertex PhotonTracer::next_vertex(Particle& particle, PhotonRecords* records,
+                                     Sampler& sampler) const {
   for (int i = 0; i < kMaxCrossings; ++i) {
     const std::optional<SurfacePoint> at = scene_.intersect(particle.ray);
-    if (!at) return std::nullopt;
+    if (particle.medium != kNone)
+      if (const auto event = fly(particle, at ? at->t : kInfinity, records, sampler)) return *event;
+    if (!at) return {};
     const float opacity = scene_.opacity(*at);
-    if (opacity >= 1 || (opacity > 0 && sampler.next() < opacity)) return at;
+    if (opacity >= 1 || (opacity > 0 && sampler.next() < opacity)) return *at;
+    particle.medium = medium_beyond(*at, particle.ray.direction, particle.medium);
     particle.ray = scene_.spawn_ray(*at, particle.ray.direction);
   }
-  return std::nullopt;
+  return {};
+}
+
+// One flight leaves up to two estimates of the fluence, each for half: at a uniform point of its
+// track the power times the length, which works where a medium is so thin that hardly anything
+// collides, and at its collision the power over the extinction. What colour does to the power
+// along the track is left out of the first.
+std::optional<MediumPoint> PhotonTracer::fly(Particle& particle, float t_max,
+                                             PhotonRecords* records, Sampler& sampler) const {
+  const MediumTracker& medium = scene_.medium(particle.medium);
+  const Flight flight = medium.fly(particle.ray, t_max, particle.power, sampler);
+  if (flight.t < kInfinity)
+    store_in_medium(particle, particle.ray(sampler.next() * flight.t),
+                    0.5f * flight.t * particle.power, records);
+  particle.power *= flight.weight;
+  if (!flight.scattered) return std::nullopt;
+  const MediumPoint at = medium_point(medium, particle.ray, flight, 0);
+  const Color mean_free_path =
+      (flight.here.sigma_t > 0).select(1 / flight.here.sigma_t, Color(0, 0, 0));
+  store_in_medium(particle, at.p, 0.5f * particle.power * mean_free_path, records);
+  return at;
 }
 
 bool PhotonTracer::stores(const Particle& particle, const SurfacePoint& at,
@@ -129,6 +175,16 @@ void PhotonTracer::store(const Particle& particle, const SurfacePoint& at,
   const Vec3 normal = at.ns.dot(wi) < 0 ? Vec3(-at.ns) : at.ns;
   records->photons.push_back({at.p, wi, normal, particle.power, particle.depth});
   ++records->counts.stored;
+}
+
+void PhotonTracer::store_in_medium(const Particle& particle, const Vec3& position,
+                                   const Color& weight, PhotonRecords* records) const {
+  if (!is_finite(weight) || !position.allFinite()) {
+    ++records->counts.invalid;
+    return;
+  }
+  records->in_media.push_back({position, -particle.ray.direction, weight, particle.depth});
+  ++records->counts.in_media;
 }
 
 void PhotonTracer::store_escape(const Particle& particle, PhotonRecords* records) const {
@@ -157,8 +213,6 @@ bool PhotonTracer::survives_guided(Particle& particle, float importance, Sampler
   return true;
 }
 
-// Roulette keeps the power of the survivors, so particles of one start stay about equal; what
-// refraction makes of radiance does not count.
 bool PhotonTracer::scatter(Particle& particle, const SurfacePoint& at,
                            const DirectionSampler& directions, bool by_importance,
                            Sampler& sampler) const {
@@ -167,12 +221,24 @@ bool PhotonTracer::scatter(Particle& particle, const SurfacePoint& at,
   const float correction = camera_ ? 1.0f
                                    : adjoint_correction(directions.resolved().frame, at.ng,
                                                         -particle.ray.direction, s->wi);
-  const Color power = particle.power * s->weight * correction;
-  const float scale = camera_ ? sqr(s->eta) : 1.0f;
-  const float survival_prob = std::min(1.0f, scale * luminance(power) / luminance(particle.power));
+  particle.medium = medium_beyond(at, s->wi, particle.medium);
+  particle.ray = scene_.spawn_ray(at, s->wi);
+  if (s->straight) {  // through a pane, as next-event estimation sees it: no scattering event
+    particle.power *= s->weight;
+    return !is_black(particle.power);
+  }
+  return go_on(particle, particle.power * s->weight * correction, camera_ ? sqr(s->eta) : 1.0f,
+               by_importance, sampler);
+}
+
+// Roulette keeps the power of the survivors, so particles of one start stay about equal; what
+// refraction makes of radiance does not count.
+bool PhotonTracer::go_on(Particle& particle, const Color& power, float eta_scale,
+                         bool by_importance, Sampler& sampler) const {
+  const float survival_prob =
+      std::min(1.0f, eta_scale * luminance(power) / luminance(particle.power));
   ++particle.depth;
   particle.power = power;
-  particle.ray = scene_.spawn_ray(at, s->wi);
   if (!(survival_prob > 0)) return false;
   if (by_importance || static_cast<int>(particle.depth) <= options_.rr_depth) return true;
   if (sampler.next() >= survival_prob) return false;

@@ -4,11 +4,12 @@
 #include <optional>
 
 #include "libguide/base/sampler.h"
-#include "libguide/guiding/direction_sampler.h"
 #include "libguide/guiding/emission_guide.h"
+#include "libguide/guiding/phase_sampler.h"
 #include "libguide/records/photon.h"
 #include "libguide/scene/camera.h"
 #include "libguide/scene/scene.h"
+#include "libguide/transport/path_vertex.h"
 
 namespace waylight {
 
@@ -35,21 +36,33 @@ class PhotonTracer {
     Ray ray;
     Color power;
     uint32_t depth = 0;
+    int medium = kNone;  // that `ray` is in
   };
   std::optional<Particle> start(Sampler& sampler) const;
   std::optional<Particle> leave_emitter(Sampler& sampler) const;
   Particle leave_camera(Sampler& sampler) const;
-  std::optional<SurfacePoint> next_surface(Particle& particle, Sampler& sampler) const;
+  PathVertex next_vertex(Particle& particle, PhotonRecords* records, Sampler& sampler) const;
+  std::optional<MediumPoint> fly(Particle& particle, float t_max, PhotonRecords* records,
+                                 Sampler& sampler) const;
+  bool visit(Particle& particle, const SurfacePoint& at, PhotonRecords* records,
+             Sampler& sampler) const;
+  bool visit(Particle& particle, const MediumPoint& at, PhotonRecords* records,
+             Sampler& sampler) const;
   bool stores(const Particle& particle, const SurfacePoint& at, const Bsdf& bsdf) const;
   void store(const Particle& particle, const SurfacePoint& at, PhotonRecords* records) const;
+  void store_in_medium(const Particle& particle, const Vec3& position, const Color& weight,
+                       PhotonRecords* records) const;
   void store_escape(const Particle& particle, PhotonRecords* records) const;
   bool survives_guided(Particle& particle, float importance, Sampler& sampler) const;
   bool scatter(Particle& particle, const SurfacePoint& at, const DirectionSampler& directions,
                bool by_importance, Sampler& sampler) const;
+  bool go_on(Particle& particle, const Color& power, float eta_scale, bool by_importance,
+             Sampler& sampler) const;
 
   const Scene& scene_;
   PhotonTracerOptions options_;
   std::optional<Camera> camera_;  // of importons
+  int camera_medium_ = kNone;
   bool stores_escapes_ = false;
   GuidingCaches guide_;
   std::optional<EmissionGuide> emission_;

@@ -151,8 +151,8 @@ TEST_P(ScaleTest, ShadowRaysReachTheLampAndNothingBehindIt) {
     ASSERT_TRUE(floor);
     const auto light = scene.sample_light(floor->p, sampler.next(), sampler.next_2d());
     ASSERT_TRUE(light);
-    blocked += scene.visibility(*floor, light->wi, light->distance) < 1;
-    leaked += scene.visibility(*floor, light->wi, 1.2f * light->distance) > 0;
+    blocked += scene.visibility(*floor, light->wi, light->distance).x() < 1;
+    leaked += scene.visibility(*floor, light->wi, 1.2f * light->distance).x() > 0;
   }
   EXPECT_EQ(blocked, 0);
   EXPECT_EQ(leaked, 0);
@@ -222,7 +222,7 @@ TEST(DegenerateGeometry, NeedlesDoNotShadowThemselves) {
     if (!hit) continue;
     ++found;
     const Vec3 wi = turn * square_to_cosine_hemisphere(sampler.next_2d());
-    shadowed += scene.visibility(*hit, wi, kInfinity) < 1;
+    shadowed += scene.visibility(*hit, wi, kInfinity).x() < 1;
   }
   EXPECT_GT(found, 9900);
   EXPECT_EQ(shadowed, 0);
@@ -232,8 +232,8 @@ TEST(DegenerateGeometry, DuplicateFacesAreASurfaceLikeAnyOther) {
   const Scene scene(scene_of({shape(square(1, 0)), shape(square(1, 0))}));
   const auto hit = scene.intersect({{0.3f, 0.2f, 1}, {0, 0, -1}});
   ASSERT_TRUE(hit);
-  EXPECT_EQ(scene.visibility(*hit, Vec3::UnitZ(), kInfinity), 1);
-  EXPECT_EQ(scene.visibility(*hit, -Vec3::UnitZ(), kInfinity), 1);
+  EXPECT_EQ(scene.visibility(*hit, Vec3::UnitZ(), kInfinity).x(), 1);
+  EXPECT_EQ(scene.visibility(*hit, -Vec3::UnitZ(), kInfinity).x(), 1);
 }
 
 TEST(EmptyScene, AnswersEveryQuestion) {

@@ -59,15 +59,23 @@ SceneDescription load_scene(const SceneArguments& arguments, const ToolRun& run)
   return import_mitsuba(arguments.path, options);
 }
 
+namespace {
+
+void leave_out_media(SceneDescription& scene) {
+  scene.media.clear();
+  scene.sensor.medium = kNone;
+  for (std::vector<Shape>* shapes : {&scene.shapes, &scene.group_shapes})
+    for (Shape& shape : *shapes) shape.interior_medium = shape.exterior_medium = kNone;
+}
+
+}  // namespace
+
 std::unique_ptr<Scene> build_scene(SceneDescription description, const SceneArguments& arguments,
                                    const ToolRun& run) {
-  if (!description.media.empty() && !arguments.ignore_media)
-    fail(
-        "\"{}\": has participating media, whose transport is not supported; --ignore-media leaves "
-        "them out",
-        arguments.path);
-  if (!description.media.empty())
+  if (arguments.ignore_media && !description.media.empty()) {
     run.control.warn(fmt::format("{} media are ignored", description.media.size()));
+    leave_out_media(description);
+  }
   auto scene = std::make_unique<Scene>(std::move(description));
   for (const std::string& warning : scene->build_warnings()) run.control.warn(warning);
   return scene;

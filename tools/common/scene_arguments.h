@@ -27,8 +27,8 @@ void add_scene_option(CLI::App& app, SceneArguments& arguments, const char* name
                       const char* description);
 
 SceneDescription load_scene(const SceneArguments& arguments, const ToolRun& run);
-// The scene for transport; warns of what was repaired or left out. Participating media have no
-// transport yet: they are an Error, or with --ignore-media a warning.
+// The scene for transport; warns of what was repaired or left out, media with
+// --ignore-media among it.
 std::unique_ptr<Scene> build_scene(SceneDescription description, const SceneArguments& arguments,
                                    const ToolRun& run);
 

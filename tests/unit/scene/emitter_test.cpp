@@ -68,7 +68,7 @@ Estimate flux_by_light_samples(const Scene& scene, int count) {
     const auto light = scene.sample_light(patch->p, u, sampler.next_2d());
     double value = 0;
     if (light && light->wi.z() > 0)
-      value = scene.visibility(*patch, light->wi, light->distance) * light->wi.z() *
+      value = scene.visibility(*patch, light->wi, light->distance).x() * light->wi.z() *
               light->radiance.mean() / light->pdf * 0.25;
     flux.add(value);
   }

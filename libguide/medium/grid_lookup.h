@@ -1,0 +1,45 @@
+#pragma once
+// Values of a volume grid at points of the world.
+
+#include <memory>
+
+#include "libguide/medium/medium.h"
+
+namespace waylight {
+
+// The map from the world to the voxels of a grid, in which voxel i spans [i, i + 1]; affine, so
+// distances along a ray are the same in both.
+class WorldToVoxels {
+ public:
+  WorldToVoxels() = default;
+  explicit WorldToVoxels(const VolumeGrid& grid) {
+    const Mat4 inverse = grid.grid_to_world.cast<double>().inverse().cast<float>();
+    linear_ = grid.size.cast<float>().asDiagonal() * inverse.topLeftCorner<3, 3>();
+    offset_ = grid.size.cast<float>().cwiseProduct(inverse.topRightCorner<3, 1>());
+  }
+  Vec3 point(const Vec3& p) const { return linear_ * p + offset_; }
+  Vec3 direction(const Vec3& d) const { return linear_ * d; }
+
+ private:
+  Mat3 linear_ = Mat3::Identity();
+  Vec3 offset_ = Vec3::Zero();
+};
+
+// Trilinear between the centres of voxels, or the value of the voxel; constant over the outer half
+// voxel. Outside of the grid 0.
+class GridLookup {
+ public:
+  explicit GridLookup(std::shared_ptr<const VolumeGrid> grid)
+      : grid_(std::move(grid)), to_voxels_(*grid_) {}
+
+  const VolumeGrid& grid() const { return *grid_; }
+  bool scalar() const { return grid_->channels == 1; }
+  float at(const Vec3& world) const;        // of a grid of one channel
+  Color color_at(const Vec3& world) const;  // grey of one channel
+
+ private:
+  std::shared_ptr<const VolumeGrid> grid_;
+  WorldToVoxels to_voxels_;
+};
+
+}  // namespace waylight

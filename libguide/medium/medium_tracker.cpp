@@ -1,0 +1,130 @@
+#include "libguide/medium/medium_tracker.h"
+
+namespace waylight {
+namespace {
+
+constexpr float kFar = 1e30f;  // keeps 0 times infinity out
+
+Color exponential(const Color& sigma_t, float distance) {
+  return (-sigma_t * std::min(distance, kFar)).exp();
+}
+
+// Probabilities of the channels, in proportion to the throughput that they would carry on.
+Color channel_probs(const Color& throughput) {
+  const float sum = throughput.sum();
+  if (!(sum > 0) || !std::isfinite(sum)) return Color::Constant(1.0f / 3);
+  return throughput / sum;
+}
+
+float choose_channel(const Color& probs, const Color& values, float u) {
+  if (u < probs[0]) return values[0];
+  return u < probs[0] + probs[1] ? values[1] : values[2];
+}
+
+float exponential_distance(float u) { return -std::log1p(-u); }
+
+// Whether a tentative collision is real, and the weights of either outcome. channels: of the
+// throughput so far. For extinction of one colour they are albedo and 1.
+struct Collision {
+  float real_prob;
+  Color real_share;  // of each channel
+
+  Collision(const Color& sigma_t, float majorant, const Color& channels)
+      : real_share((sigma_t / majorant).min(1.0f)) {
+    real_prob = (channel_probs(channels) * real_share).sum();
+  }
+  Color real_weight() const { return real_share / real_prob; }
+  Color null_weight() const { return (1 - real_share) / (1 - real_prob); }
+};
+
+}  // namespace
+
+MediumTracker::MediumTracker(const Medium& medium) : phase_(medium.phase) {
+  if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium.coefficients)) {
+    sigma_t_ = homogeneous->sigma_t;
+    albedo_ = homogeneous->albedo;
+  } else {
+    const auto& m = std::get<HeterogeneousMedium>(medium.coefficients);
+    using Grid = std::shared_ptr<const VolumeGrid>;
+    scale_ = m.scale;
+    if (const Grid* grid = std::get_if<Grid>(&m.density)) {
+      density_grid_.emplace(*grid);
+      blocks_ = ExtinctionBlocks(**grid, scale_);
+    } else {
+      sigma_t_ = scale_ * std::get<Color>(m.density);
+    }
+    if (const Grid* grid = std::get_if<Grid>(&m.albedo))
+      albedo_grid_.emplace(*grid);
+    else
+      albedo_ = std::get<Color>(m.albedo);
+  }
+  bounds_ = {sigma_t_.minCoeff(), sigma_t_.mean(), sigma_t_.maxCoeff()};
+}
+
+Flight MediumTracker::fly(const Ray& ray, float t_max, const Color& throughput,
+                          Sampler& sampler) const {
+  return density_grid_ ? track(ray, t_max, throughput, sampler)
+                       : fly_exponential(ray, t_max, channel_probs(throughput), sampler);
+}
+
+Flight MediumTracker::fly_exponential(const Ray& ray, float t_max, const Color& channels,
+                                      Sampler& sampler) const {
+  const float u = sampler.next();
+  const float sigma = choose_channel(channels, sigma_t_, sampler.next());
+  const float t = sigma > 0 ? exponential_distance(u) / sigma : kInfinity;
+  const bool scattered = t < t_max;
+  const Color transmittance = exponential(sigma_t_, scattered ? t : t_max);
+  if (!scattered) return {t_max, false, transmittance / (channels * transmittance).sum(), {}};
+  const float pdf = (channels * sigma_t_ * transmittance).sum();
+  return {t, true, sigma_t_ * transmittance / pdf, at(ray(t))};
+}
+
+Flight MediumTracker::track(const Ray& ray, float t_max, const Color& throughput,
+                            Sampler& sampler) const {
+  float depth = exponential_distance(sampler.next());  // optical, left until the next collision
+  RandomStream random(sampler);
+  Color weight = Color::Ones();
+  BlockWalk blocks = walk(ray, t_max);
+  for (RayBlock block; blocks.next(block);) {
+    float t = block.t0;
+    while (depth < block.most * (block.t1 - t)) {
+      t += depth / block.most;
+      const MediumCoefficients here = at(ray(t));
+      const Collision collision(here.sigma_t, block.most, throughput * weight);
+      if (random.next() < collision.real_prob)
+        return {t, true, weight * collision.real_weight(), here};
+      weight *= collision.null_weight();
+      depth = exponential_distance(random.next());
+    }
+    depth -= block.most * (block.t1 - t);
+  }
+  return {t_max, false, weight, {}};
+}
+
+Color MediumTracker::transmittance(const Ray& ray, float t_max, RandomStream& random) const {
+  if (!density_grid_) return exponential(sigma_t_, t_max);
+  constexpr float kFaint = 0.05f;  // below, roulette decides whether to look further
+  Color result = Color::Ones();
+  BlockWalk blocks = walk(ray, t_max);
+  for (RayBlock block; blocks.next(block);) {
+    result *= std::exp(-block.least * block.length()) * residual(ray, block, random);
+    const float largest = result.maxCoeff();
+    if (largest >= kFaint) continue;
+    if (!(random.next() * kFaint < largest)) return Color::Zero();
+    result *= kFaint / largest;
+  }
+  return result;
+}
+
+// Of the extinction above the block's least.
+Color MediumTracker::residual(const Ray& ray, const RayBlock& block, RandomStream& random) const {
+  Color result = Color::Ones();
+  const float range = block.most - block.least;
+  if (!(range > 0)) return result;
+  float t = block.t0;
+  while ((t += exponential_distance(random.next()) / range) < block.t1)
+    result *= (1 - (extinction_at(ray(t)) - block.least) / range).max(0.0f);
+  return result;
+}
+
+}  // namespace waylight

@@ -1,0 +1,68 @@
+#pragma once
+// A medium prepared for flights: distances sampled by the standard methods, and transmittance.
+
+#include <optional>
+
+#include "libguide/base/random_stream.h"
+#include "libguide/medium/extinction_blocks.h"
+#include "libguide/medium/phase.h"
+
+namespace waylight {
+
+struct MediumCoefficients {
+  Color sigma_t, albedo;
+};
+
+// How a flight ended: collided at distance t, or past the medium's end at t_max. weight: what the
+// throughput takes, sigma_t T / pdf or T / P(pass), without the albedo; 1 in media of one colour,
+// bounded in others.
+struct Flight {
+  float t = 0;
+  bool scattered = false;
+  Color weight = Color::Ones();
+  MediumCoefficients here = {};  // where it collided
+};
+
+class MediumTracker {
+ public:
+  explicit MediumTracker(const Medium& medium);
+
+  const PhaseFunction& phase() const { return phase_; }
+  MediumCoefficients at(const Vec3& p) const {
+    return {extinction_at(p), albedo_grid_ ? albedo_grid_->color_at(p) : albedo_};
+  }
+  bool homogeneous() const { return !density_grid_; }
+
+  // In proportion to transmittance times extinction. Homogeneous media: the exponential of one
+  // channel, chosen in proportion to the throughput, with the balance heuristic over the three.
+  // Others: delta tracking against the majorants of blocks [Woodcock et al. 1965; Galtier et al.
+  // 2013 for the weights of colours].
+  Flight fly(const Ray& ray, float t_max, const Color& throughput, Sampler& sampler) const;
+
+  // An unbiased estimate between 0 and 1; exact in homogeneous media. Others: residual ratio
+  // tracking with the least extinction of each block as control [Novak et al. 2014].
+  Color transmittance(const Ray& ray, float t_max, RandomStream& random) const;
+
+  // The blocks along a ray, one in homogeneous media.
+  BlockWalk walk(const Ray& ray, float t_max) const {
+    return density_grid_ ? BlockWalk(blocks_, ray, t_max) : BlockWalk(bounds_, t_max);
+  }
+
+ private:
+  Color extinction_at(const Vec3& p) const {
+    return density_grid_ ? Color(scale_ * density_grid_->color_at(p)) : sigma_t_;
+  }
+  Flight fly_exponential(const Ray& ray, float t_max, const Color& channels,
+                         Sampler& sampler) const;
+  Flight track(const Ray& ray, float t_max, const Color& throughput, Sampler& sampler) const;
+  Color residual(const Ray& ray, const RayBlock& block, RandomStream& random) const;
+
+  PhaseFunction phase_;
+  Color sigma_t_ = Color::Zero(), albedo_ = Color::Zero();  // where there is no grid
+  ExtinctionBounds bounds_;                                 // of sigma_t_
+  float scale_ = 1;
+  std::optional<GridLookup> density_grid_, albedo_grid_;
+  ExtinctionBlocks blocks_;
+};
+
+}  // namespace waylight

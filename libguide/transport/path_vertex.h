@@ -1,0 +1,41 @@
+#pragma once
+
+#include <variant>
+
+#include "libguide/scene/scene.h"
+
+namespace waylight {
+
+// Transparent surfaces in a row before a path is given up.
+inline constexpr int kMaxCrossings = 1000;
+
+// A vertex in a medium.
+struct MediumPoint : RayOrigin {
+  float t = 0;  // distance from the vertex before
+  const MediumTracker* medium = nullptr;
+  Color albedo = Color::Zero();
+};
+
+// Where an edge of a path ends; nowhere: it left the scene.
+using PathVertex = std::variant<std::monostate, SurfacePoint, MediumPoint>;
+
+// The medium of a ray that leaves a vertex.
+inline int medium_after(const SurfacePoint& at, const Vec3& wi, int current) {
+  return medium_beyond(at, wi, current);
+}
+inline int medium_after(const MediumPoint& /*at*/, const Vec3& /*wi*/, int current) {
+  return current;
+}
+
+// Where a flight along `ray` scattered. crossed: length of the edge before the ray's origin.
+inline MediumPoint medium_point(const MediumTracker& medium, const Ray& ray, const Flight& flight,
+                                float crossed) {
+  MediumPoint at;
+  at.p = ray(flight.t);
+  at.t = crossed + flight.t;
+  at.medium = &medium;
+  at.albedo = flight.here.albedo;
+  return at;
+}
+
+}  // namespace waylight
