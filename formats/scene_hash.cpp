@@ -124,8 +124,9 @@ void add(ValueHash& hash, const ConstantEnvironment& e) {
 }
 
 void add(ValueHash& hash, const EnvironmentMap& e) {
-  const auto& [bitmap, scale, to_world] = e;
+  const auto& [bitmap, scale, to_world, rows_at_poles] = e;
   hash.add_all(bitmap, scale, to_world);
+  if (rows_at_poles) hash.add_all(rows_at_poles);
 }
 
 void add(ValueHash& hash, const DistantDisk& e) {

@@ -79,7 +79,8 @@ void import_environment(ImportContext& context, Properties& properties) {
   properties.ignore({"mis_compensation", "cache"});
   context.scene.emitters.push_back(EnvironmentMap{bitmap_property(context, properties, space),
                                                   scale,
-                                                  rotation_property(properties, "to_world")});
+                                                  rotation_property(properties, "to_world"),
+                                                  !context.document.old_dialect});
 }
 
 void refuse_area(ImportContext& /*context*/, Properties& properties) {

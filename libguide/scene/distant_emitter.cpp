@@ -32,6 +32,9 @@ std::optional<EmissionSample> ConstantEmitter::emit(float u, const Vec2& u_posit
 
 MapEmitter::MapEmitter(const EnvironmentMap& map, const SceneSphere& sphere)
     : bitmap_(map.bitmap), scale_(map.scale), to_world_(map.to_world), sphere_(sphere) {
+  const bool at_poles = map.rows_at_poles && bitmap_->height > 1;
+  row_scale_ = (at_poles ? bitmap_->height - 1 : bitmap_->height) / std::numbers::pi;
+  row_offset_ = at_poles ? 1 : 0.5;
   std::vector<float> weights;
   weights.reserve(static_cast<size_t>(bitmap_->width) * (bitmap_->height + 1));
   for (int row = 0; row <= bitmap_->height; ++row)
@@ -52,7 +55,7 @@ Color MapEmitter::cell_mean(int column, int row) const {
 }
 
 double MapEmitter::row_edge(int row) const {
-  return std::numbers::pi * std::clamp((row - 0.5) / bitmap_->height, 0.0, 1.0);
+  return std::clamp((row - row_offset_) / row_scale_, 0.0, std::numbers::pi);
 }
 
 // Delta phi (cos a - cos b), the difference as a product to keep its digits at the poles.
@@ -65,12 +68,13 @@ float MapEmitter::cell_solid_angle(int row) const {
 MapEmitter::Place MapEmitter::locate(const Vec3& direction) const {
   const Vec3 w = to_world_.transpose() * direction;
   const float turn = std::atan2(w.x(), -w.z()) / (2 * kPi);
-  const float polar = std::atan2(std::hypot(w.x(), w.z()), w.y()) * kInvPi;
+  const float polar = std::atan2(std::hypot(w.x(), w.z()), w.y());
   const float x = (turn < 0 ? turn + 1 : turn) * bitmap_->width - 0.5f;
-  const float y = polar * bitmap_->height + 0.5f;
+  const float y = static_cast<float>(polar * row_scale_ + row_offset_);
   const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(y);
   const int wrapped = column < 0 ? bitmap_->width - 1 : std::min(column, bitmap_->width - 1);
-  return {wrapped, std::clamp(row, 0, bitmap_->height), x - column, y - row};
+  const int first = static_cast<int>(row_offset_);  // that has height
+  return {wrapped, std::clamp(row, first, bitmap_->height - first), x - column, y - row};
 }
 
 Color MapEmitter::radiance(const Vec3& direction) const {

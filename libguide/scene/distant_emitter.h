@@ -35,7 +35,8 @@ class MapEmitter {
 
  private:
   // Cell (column, row) lies between the centres of pixels column and column + 1 (around the seam)
-  // and of rows row - 1 and row; the first and the last row of cells are half as high.
+  // and of rows row - 1 and row; the first and the last row of cells are half as high, or
+  // have no height where rows are at the poles.
   struct Place {
     int column, row;
     float x, y;  // within the cell, for the interpolation
@@ -50,6 +51,7 @@ class MapEmitter {
   float scale_;
   Mat3 to_world_;
   SceneSphere sphere_;
+  double row_scale_, row_offset_;  // of a polar angle of 1, and of the pole, in rows of cells
   PiecewiseConstant2d cells_;
   double power_;
 };

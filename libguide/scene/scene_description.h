@@ -75,6 +75,9 @@ struct EnvironmentMap {
   std::shared_ptr<const Bitmap> bitmap;
   float scale = 1;
   Mat3 to_world = Mat3::Identity();  // rotation
+  // Mitsuba's new dialect: the centres of the first and the last row are the poles. Else these lie
+  // half a pixel beyond.
+  bool rows_at_poles = false;
 };
 // A distant uniform disk, such as the sun.
 struct DistantDisk {
