@@ -59,6 +59,7 @@ void VmfMixture::prepare() {
   kappa_ = lanes_min(kappa_, splat(kMaxKappa));
   half_ = (-0.5f * kLog2E) * kappa_;
   norm_ = weight_ * lanes_vmf_norm(kappa_);
+  dispersion_ = lanes_dispersion(kappa_);
   cumulative_ = lanes_prefix_sum(weight_);
 }
 
