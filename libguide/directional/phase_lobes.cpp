@@ -6,7 +6,7 @@ namespace waylight {
 namespace {
 
 constexpr double kMaxG = 0.99;
-constexpr double kFlatG = 1e-3;     // below, the nodes cancel, and one lobe is right to 1e-6
+constexpr double kFlatG = 1e-3;  // below, the nodes cancel, and one lobe is right to 1e-6
 constexpr double kTolerance = 0.03;
 constexpr int kIterations = 200;
 constexpr int kNodes = 257;  // odd, for Simpson's rule
@@ -15,7 +15,8 @@ struct Node {
   double d, mass;  // 1 - cos theta; density times solid angle, normalised
 };
 
-// Simpson's rule in ln(1 + g^2 - 2 g cos theta), on whose scale the function is a power for every g.
+// Simpson's rule in ln(1 + g^2 - 2 g cos theta), on whose scale the function is a power for every
+// g.
 std::vector<Node> henyey_greenstein_nodes(double g) {
   const double low = 2 * std::log1p(-g), high = 2 * std::log1p(g);
   std::vector<Node> nodes(kNodes);
@@ -31,19 +32,18 @@ std::vector<Node> henyey_greenstein_nodes(double g) {
 }
 
 struct Lobe {
-  double weight, kappa;
+  double weight, kappa, scale;  // scale = 2 pi weight c(kappa)
 
-  double density(double d) const {  // times 2 pi
-    return weight * kappa / -std::expm1(-2 * kappa) * std::exp(-kappa * d);
-  }
+  Lobe(double w, double k) : weight(w), kappa(k), scale(w * k / -std::expm1(-2 * k)) {}
+  double density(double d) const { return scale * std::exp(-kappa * d); }  // times 2 pi
 };
 
 // Evenly by logarithm from the least to the largest concentration that HG(g) is made of.
 std::vector<Lobe> spread_lobes(double g, int count) {
   const double low = std::log(g), high = std::log(2 * g / ((1 - g) * (1 - g)));
-  std::vector<Lobe> lobes(count);
+  std::vector<Lobe> lobes;
   for (int k = 0; k < count; ++k)
-    lobes[k] = {1.0 / count, std::exp(low + (high - low) * (k + 0.5) / count)};
+    lobes.emplace_back(1.0 / count, std::exp(low + (high - low) * (k + 0.5) / count));
   return lobes;
 }
 
@@ -57,7 +57,8 @@ void em_step(const std::vector<Node>& nodes, std::vector<Lobe>& lobes) {
       s0[k] += share, s1[k] += share * (1 - node.d);
     }
   }
-  for (size_t k = 0; k < lobes.size(); ++k) lobes[k] = {s0[k], kappa_of_mean_cosine(s1[k] / s0[k])};
+  for (size_t k = 0; k < lobes.size(); ++k)
+    lobes[k] = Lobe(s0[k], kappa_of_mean_cosine(s1[k] / s0[k]));
 }
 
 // int |HG - lobes| dw, as the mean of |1 - lobes / HG| over HG.
@@ -99,7 +100,8 @@ float PhaseLobes::pdf(float cos_theta) const {
 
 float PhaseLobes::mean_cosine() const {
   float sum = 0;
-  for (int k = 0; k < count; ++k) sum += lobes[k].weight * lobes[k].sign * (1 - lobes[k].dispersion);
+  for (int k = 0; k < count; ++k)
+    sum += lobes[k].weight * lobes[k].sign * (1 - lobes[k].dispersion);
   return sum;
 }
 

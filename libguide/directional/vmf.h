@@ -3,8 +3,8 @@
 //   c(kappa) e^(kappa (mean . w - 1)),  c(kappa) = kappa / (2 pi (1 - e^(-2 kappa))),
 // 1 / (4 pi) for kappa = 0; the mean of the directions is A(kappa) mean with the mean cosine
 //   A(kappa) = coth kappa - 1 / kappa.
-// mean . w - 1 is taken as -|w - mean|^2 / 2, which is exact to first order where the dot product of
-// floats is off by 6e-8: times 1e5, that would be 0.6 % of the density.
+// mean . w - 1 is taken as -|w - mean|^2 / 2, which is exact to first order where the dot product
+// of floats is off by 6e-8: times 1e5, that would be 0.6 % of the density.
 
 #include "libguide/math/fast_exp.h"
 #include "libguide/math/types.h"
@@ -37,8 +37,7 @@ double kappa_of_mean_cosine(double r);
 // c(kappa) of eight lobes; relative error below 3e-6.
 inline Lanes lanes_vmf_norm(Lanes kappa) {
   const Lanes x = 2 * kappa, x2 = x * x;
-  const Lanes series =
-      1 + 0.5f * x + x2 * (1.0f / 12 - x2 * (1.0f / 720 - x2 * (1.0f / 30240)));
+  const Lanes series = 1 + 0.5f * x + x2 * (1.0f / 12 - x2 * (1.0f / 720 - x2 * (1.0f / 30240)));
   const Lanes ratio = x / (1 - exp_clamped(-x));
   return kSpherePdf * (x < 0.5f ? series : ratio);
 }

@@ -9,10 +9,11 @@ namespace waylight {
 
 // int phase(w . w') light(w') dw' with each pair of lobes replaced by the lobe of its resultant:
 //   A(kappa_ij) = A(kappa_i) A(kappa_j) [Mardia, Jupp 2000, 9.3.2].
-// It integrates to one and keeps the mean direction. The shape is exact for uniform lobes and in the
-// limit of narrow ones; between, for |g| <= 0.9 and one lobe of light of any kappa, it is within 4.5
-// % below and 17.5 % above the convolution with HG(g)'s lobes, int |difference| dw <= 0.031 (at
-// g = 0.7, kappa = 3; 0.003 at kappa = 100). From the convolution with HG(g) itself: 0.031, too.
+// It integrates to one and keeps the mean direction. The shape is exact for uniform lobes and in
+// the limit of narrow ones; between, for |g| <= 0.9 and one lobe of light of any kappa, it is
+// within 4.5 % below and 17.5 % above the convolution with HG(g)'s lobes, int |difference| dw <=
+// 0.031 (at g = 0.7, kappa = 3; 0.003 at kappa = 100). From the convolution with HG(g) itself:
+// 0.031, too.
 class VmfConvolution {
  public:
   VmfConvolution(const VmfMixture& light, const PhaseLobes& phase);

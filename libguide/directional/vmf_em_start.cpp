@@ -47,9 +47,8 @@ std::vector<VmfComponent> initial_vmf_components(std::span<const WeightedDirecti
   const BatchWeights weights = scan_weights(points, kMaxTrainingWeight);
   if (weights.used == 0) return {};
   const std::vector<double> weight = cut_weights(points, weights);
-  std::vector<Vec3> centres =
-      spread_centres<Vec3>(weight, [&](size_t i) { return points[i].w; },
-                           std::clamp(count, 1, kMaxEmComponents));
+  std::vector<Vec3> centres = spread_centres<Vec3>(
+      weight, [&](size_t i) { return points[i].w; }, std::clamp(count, 1, kMaxEmComponents));
   for (int round = 0; round < kLloydRounds; ++round)
     move_to_means(cluster(points, weight, centres), centres);
   Clusters clusters = cluster(points, weight, centres);

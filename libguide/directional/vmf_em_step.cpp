@@ -107,8 +107,7 @@ int maximization(std::span<VmfStatistics> statistics, float samples, const VmfPr
     if (n * s.s0 >= kMinSupport) statistics[count++] = s;
   for (int k = 0; k < count; ++k) {
     components[k] = lobe_of(statistics[k], n, prior);
-    components[k].weight =
-        (n * statistics[k].s0 + prior.v - 1) / (n + count * (prior.v - 1));
+    components[k].weight = (n * statistics[k].s0 + prior.v - 1) / (n + count * (prior.v - 1));
   }
   return count;
 }

@@ -16,7 +16,8 @@ struct VmfBatchStatistics {
   double log_likelihood = 0;  // mean by weight, natural logarithm; only if asked for
 };
 
-// Eight directions. Those that are not valid, and those that fill the last row up, have weight zero.
+// Eight directions. Those that are not valid, and those that fill the last row up, have weight
+// zero.
 struct DirectionRow {
   Lanes x{}, y{}, z{}, weight{};
 };
@@ -47,8 +48,7 @@ class VmfExpectation {
  private:
   using Moments = std::array<double, 4>;  // 1, x, y, z
 
-  static void add_moments(std::span<const DirectionRow> rows, const Lanes* share,
-                          Moments& moments);
+  static void add_moments(std::span<const DirectionRow> rows, const Lanes* share, Moments& moments);
 
   size_t count_;
   Likelihood likelihood_;
@@ -57,8 +57,8 @@ class VmfExpectation {
   double log2_likelihood_ = 0;
 };
 
-// Lobes of the statistics with n = samples (at least 1); those without support are left out of both,
-// the others moved to the front. Returns how many are left.
+// Lobes of the statistics with n = samples (at least 1); those without support are left out of
+// both, the others moved to the front. Returns how many are left.
 int maximization(std::span<VmfStatistics> statistics, float samples, const VmfPrior& prior,
                  std::span<VmfComponent> components);
 

@@ -6,7 +6,7 @@ namespace waylight {
 namespace {
 
 constexpr float kMinWeight = 1e-30f, kMaxWeight = 1e30f;  // sums and inverses stay finite
-constexpr float kUnitTolerance = 1e-3f;  // of |mean|^2
+constexpr float kUnitTolerance = 1e-3f;                   // of |mean|^2
 
 IntLanes within(Lanes v, float low, float high) { return (v > low) & (v < high); }  // no NaN is
 
@@ -46,15 +46,14 @@ void VmfMixture::fill(std::span<const VmfComponent> components) {
 
 IntLanes VmfMixture::valid() const {
   const Lanes length2 = mean_x_ * mean_x_ + mean_y_ * mean_y_ + mean_z_ * mean_z_;
-  return within(weight_, kMinWeight, kMaxWeight) & within(length2, 1 - kUnitTolerance, 1 + kUnitTolerance) &
-         (kappa_ >= 0);
+  return within(weight_, kMinWeight, kMaxWeight) &
+         within(length2, 1 - kUnitTolerance, 1 + kUnitTolerance) & (kappa_ >= 0);
 }
 
 void VmfMixture::prepare() {
   if (count_ == 0) return;
   weight_ *= splat(1 / lanes_sum(weight_));
-  const Lanes scale =
-      1 / lanes_sqrt(mean_x_ * mean_x_ + mean_y_ * mean_y_ + mean_z_ * mean_z_);
+  const Lanes scale = 1 / lanes_sqrt(mean_x_ * mean_x_ + mean_y_ * mean_y_ + mean_z_ * mean_z_);
   mean_x_ *= scale, mean_y_ *= scale, mean_z_ *= scale;
   kappa_ = lanes_min(kappa_, splat(kMaxKappa));
   half_ = (-0.5f * kLog2E) * kappa_;

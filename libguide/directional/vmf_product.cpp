@@ -5,6 +5,17 @@ namespace {
 
 constexpr float kMinOverlap = 1e-20f;
 
+// 1 / c(kappa) = 4 pi (1 - e^-x) / x with x = 2 kappa; relative error below 3e-6.
+Lanes inverse_norm(Lanes kappa) {
+  const Lanes x = 2 * kappa;
+  Lanes series = 1.0f / 720 - x * (1.0f / 5040);
+  series = 1.0f / 120 - x * series;
+  series = 1.0f / 24 - x * series;
+  series = 1.0f / 6 - x * series;
+  series = 1 - x * (0.5f - x * series);
+  return 4 * kPi * (x < 0.5f ? series : (1 - exp_clamped(-x)) / x);
+}
+
 // The lane at which the running sum exceeds `target`, which is moved on by the sum before it.
 int choose(Lanes weights, float& target, int count) {
   const Lanes cumulative = lanes_prefix_sum(weights);
@@ -31,7 +42,7 @@ VmfProduct::VmfProduct(const VmfMixture& first, const VmfMixture& second)
     const Lanes sum = row_kappa + lanes_.kappa_ + kappa;
     const Lanes loss = row_kappa * lanes_.kappa_ * lanes_.distance2(mean) /
                        lanes_max(sum, splat(std::numeric_limits<float>::min()));
-    const Lanes norm = rows_.norm_[i] * lanes_.norm_ / lanes_vmf_norm(kappa);
+    const Lanes norm = rows_.norm_[i] * lanes_.norm_ * inverse_norm(kappa);
     scale += norm;
     weights_[i] = norm * exp_clamped(-loss);
     // Written a lane at a time, the vector could not be read back before all stores are done.

@@ -31,9 +31,8 @@ double vmf_entropy(double kappa) {
 }
 
 double merge_cost(const VmfComponent& i, const VmfComponent& j) {
-  const double cost =
-      (static_cast<double>(i.weight) + j.weight) * vmf_entropy(merge(i, j).kappa) -
-      i.weight * vmf_entropy(i.kappa) - j.weight * vmf_entropy(j.kappa);
+  const double cost = (static_cast<double>(i.weight) + j.weight) * vmf_entropy(merge(i, j).kappa) -
+                      i.weight * vmf_entropy(i.kappa) - j.weight * vmf_entropy(j.kappa);
   return std::max(cost, 0.0);
 }
 

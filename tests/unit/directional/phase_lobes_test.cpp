@@ -54,8 +54,8 @@ TEST(PhaseLobes, MeanCosineIsG) {
   }
 }
 
-// What four lobes leave grows with the decades of angle that HG spans: 0.03 up to |g| = 0.9, 0.06 at
-// 0.95 and 0.13 at 0.99.
+// What four lobes leave grows with the decades of angle that HG spans: 0.03 up to |g| = 0.9, 0.06
+// at 0.95 and 0.13 at 0.99.
 TEST(PhaseLobes, ErrorIsWithinItsBound) {
   for (float g : all_g()) {
     const PhaseLobes phase = phase_lobes(g);

@@ -87,7 +87,8 @@ TEST(VmfConvolution, ReferenceIsTheIntegralItself) {
       const double phase = (1 - g * g) / (4 * std::numbers::pi * base * std::sqrt(base));
       return phase * test::density({1, Vec3::UnitZ(), kappa}, v);
     });
-    const double series = convolved(henyey_greenstein_series(g), vmf_series(kappa), std::cos(theta));
+    const double series =
+        convolved(henyey_greenstein_series(g), vmf_series(kappa), std::cos(theta));
     EXPECT_NEAR(integral / series, 1, 1e-3);
   }
 }

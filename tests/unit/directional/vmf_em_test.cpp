@@ -28,9 +28,8 @@ TEST(FitVmfMixture, RecoversAKnownMixture) {
   ASSERT_EQ(fit.components.size(), 3u);
   for (const VmfComponent& expected : known()) {
     const auto found = std::max_element(
-        fit.components.begin(), fit.components.end(), [&](auto& a, auto& b) {
-          return a.mean.dot(expected.mean) < b.mean.dot(expected.mean);
-        });
+        fit.components.begin(), fit.components.end(),
+        [&](auto& a, auto& b) { return a.mean.dot(expected.mean) < b.mean.dot(expected.mean); });
     EXPECT_NEAR(found->weight, expected.weight, 0.01);
     EXPECT_GT(found->mean.dot(expected.mean), 0.9998);
     EXPECT_NEAR(found->kappa, expected.kappa, 0.06f * expected.kappa);
@@ -46,7 +45,7 @@ TEST(FitVmfMixture, WeightsOfUniformDirectionsGiveTheSameMixture) {
     points.push_back({w, truth.pdf(w)});
   }
   VmfEmOptions options;
-  options.max_iterations = 100;  // of eight lobes: three may start in the wrong places
+  options.max_iterations = 100;    // of eight lobes: three may start in the wrong places
   options.max_weight = kInfinity;  // a peak is no firefly here
   EXPECT_LT(difference(fit_vmf_mixture(points, options).components, known()), 0.05);
 }

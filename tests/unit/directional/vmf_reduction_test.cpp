@@ -47,10 +47,12 @@ TEST(VmfMerge, CostBoundsTheDivergence) {
     const float total = c[0].weight + c[1].weight;
     for (VmfComponent& lobe : c) lobe.weight /= total;
     const VmfComponent m = merge(c[0], c[1]);
-    const double divergence = test::integrate_sphere([&](const Vec3& w) {
-      const double p = test::density(c, w);
-      return p > 1e-30 ? p * std::log(p / test::density(m, w)) : 0.0;
-    }, 200);
+    const double divergence = test::integrate_sphere(
+        [&](const Vec3& w) {
+          const double p = test::density(c, w);
+          return p > 1e-30 ? p * std::log(p / test::density(m, w)) : 0.0;
+        },
+        200);
     EXPECT_GE(merge_cost(c[0], c[1]), divergence - 1e-4) << seed;
     EXPECT_GT(divergence, 0);
   }
