@@ -27,7 +27,7 @@ struct PhaseLobes {
 // Of [Henyey, Greenstein 1941] with mean cosine g; |g| ends at 0.99. It is a continuous mixture of
 // lobes all about one axis, so EM from lobes spread over their range finds few that stand for it,
 // and keeps the mean cosine. As few as make int |HG - lobes| dw less than 0.03, or four: see the
-// test for what is left. Takes less than 5 ms: once a phase function.
+// test for what is left. Takes up to 3 ms: once a phase function.
 PhaseLobes phase_lobes(float g);
 
 }  // namespace waylight

@@ -8,7 +8,7 @@
 namespace waylight {
 
 // int phase(w . w') light(w') dw' with each pair of lobes replaced by the lobe of its resultant:
-//   A(kappa_ij) = A(kappa_i) A(kappa_j) [Mardia, Jupp 2000, 9.3.2].
+//   A(kappa_ij) = A(kappa_i) A(kappa_j) [Mardia, Jupp 2000].
 // It integrates to one and keeps the mean direction. The shape is exact for uniform lobes and in
 // the limit of narrow ones; between, for |g| <= 0.9 and one lobe of light of any kappa, it is
 // within 4.5 % below and 17.5 % above the convolution with HG(g)'s lobes, int |difference| dw <=
@@ -18,8 +18,8 @@ class VmfConvolution {
  public:
   VmfConvolution(const VmfMixture& light, const PhaseLobes& phase);
 
-  // w: the direction of propagation before the scattering, looking from the camera, so that light
-  // from w goes on unscattered. Unit; per steradian. 0 where either has no lobes.
+  // w: where the path from the camera goes on without scattering, -wo; the light's mixture is of the
+  // directions that light comes from. Unit; per steradian. 0 where either has no lobes.
   float pdf(const Vec3& w) const {
     Lanes sum{};
     for (int j = 0; j < count_; ++j) {

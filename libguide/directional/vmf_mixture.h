@@ -43,10 +43,10 @@ class VmfMixture {
   }
 
   int count_ = 0;
-  Lanes weight_{}, mean_x_{}, mean_y_{}, mean_z_ = splat(1), kappa_{};  // unused: weight 0
-  Lanes half_{};                                                        // -log2(e) kappa / 2
-  Lanes norm_{};                                                        // weight c(kappa)
-  Lanes dispersion_ = splat(1);                                         // 1 - A(kappa)
+  // Unused lanes have weight 0.
+  Lanes weight_{}, mean_x_{}, mean_y_{}, mean_z_ = splat(1), kappa_{};
+  Lanes half_{}, norm_{};  // -log2(e) kappa / 2; weight c(kappa)
+  Lanes dispersion_ = splat(1);
   Lanes cumulative_{};  // sums of weight up to and including a lane
 };
 
