@@ -5,50 +5,10 @@
 namespace waylight {
 namespace {
 
-constexpr double kRounding = 1e-7;  // nats: equal components merge although the sums round
-
 double log_det(const GaussianComponent& c) {
   const double det =
       static_cast<double>(c.cov_xx) * c.cov_yy - static_cast<double>(c.cov_xy) * c.cov_xy;
   return std::log(std::max(det, 1e-30));
-}
-
-std::vector<GaussianComponent> normalised(std::span<const GaussianComponent> components) {
-  std::vector<GaussianComponent> result;
-  double total = 0;
-  for (const GaussianComponent& c : components) {
-    if (GaussianMixture(std::span(&c, 1)).count() == 0) continue;
-    result.push_back(c);
-    total += c.weight;
-  }
-  for (GaussianComponent& c : result) c.weight = static_cast<float>(c.weight / total);
-  return result;
-}
-
-struct Pair {
-  size_t i = 0, j = 0;
-  double cost = std::numeric_limits<double>::infinity();
-};
-
-Pair cheapest_pair(std::span<const GaussianComponent> components) {
-  Pair best;
-  for (size_t i = 0; i < components.size(); ++i)
-    for (size_t j = i + 1; j < components.size(); ++j) {
-      const double cost = merge_cost(components[i], components[j]);
-      if (cost < best.cost) best = {i, j, cost};
-    }
-  return best;
-}
-
-// The bounds telescope: the cost of any sequence of merges that ends at one component.
-double collapse_cost(std::span<const GaussianComponent> components) {
-  GaussianComponent whole = components[0];
-  double cost = 0;
-  for (const GaussianComponent& c : components.subspan(1)) {
-    cost += merge_cost(whole, c);
-    whole = merge(whole, c);
-  }
-  return cost;
 }
 
 }  // namespace
@@ -74,21 +34,7 @@ double merge_cost(const GaussianComponent& i, const GaussianComponent& j) {
 
 ReductionResult reduce_mixture(std::span<const GaussianComponent> components, float max_cost,
                                int max_components) {
-  ReductionResult result;
-  result.components = normalised(components);
-  std::vector<GaussianComponent>& left = result.components;
-  if (left.size() < 2) return result;
-  result.collapse_cost = collapse_cost(left);
-  const double limit = max_cost / 100 * result.collapse_cost + kRounding;
-  while (left.size() > 1) {
-    const Pair pair = cheapest_pair(left);
-    const bool too_many = left.size() > static_cast<size_t>(max_components);
-    if (!too_many && result.cost + pair.cost > limit) break;
-    result.cost += pair.cost;
-    left[pair.i] = merge(left[pair.i], left[pair.j]);
-    left.erase(left.begin() + pair.j);
-  }
-  return result;
+  return reduce_greedily<GaussianMixture>(components, max_cost, max_components);
 }
 
 }  // namespace waylight

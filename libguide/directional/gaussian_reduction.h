@@ -1,9 +1,7 @@
 #pragma once
 // Fewer components for a mixture by greedy merging [Runnalls 2007].
 
-#include <span>
-#include <vector>
-
+#include "libguide/directional/greedy_reduction.h"
 #include "libguide/records/gaussian.h"
 
 namespace waylight {
@@ -16,12 +14,7 @@ GaussianComponent merge(const GaussianComponent& i, const GaussianComponent& j);
 // negative; the bounds of successive merges telescope, so a sum does not depend on their order.
 double merge_cost(const GaussianComponent& i, const GaussianComponent& j);
 
-struct ReductionResult {
-  std::vector<GaussianComponent> components;  // weights normalised
-  double cost = 0;                            // of the merges made, for weights that sum to 1
-  double collapse_cost = 0;                   // of merging all into one
-  double percent() const { return collapse_cost > 0 ? 100 * cost / collapse_cost : 0; }
-};
+using ReductionResult = Reduction<GaussianComponent>;
 
 // Merges the cheapest pair while the accumulated cost stays below max_cost percent of
 // collapse_cost, and on until no more than max_components (>= 1) are left. At most 64 components;
