@@ -13,10 +13,14 @@ namespace waylight {
 // mean with the mean resultant length `length` (0: uniform). With n samples in all, the mode is
 //   weight = (n s0 + v - 1) / (n + K (v - 1)),  mean = s1 / |s1|,
 //   A(kappa) = (n |s1| + strength length) / (n s0 + strength).
+// One sample gives kappa = 22, n equal ones about 20 n. The defaults are those of the least held-out
+// divergence, over random mixtures of up to six lobes with kappa to 30, 300 and 3000 that eight
+// lobes are fitted to from 16 to 1024 samples. Uniform pseudo-samples (length 0) of the same
+// strength widen narrow lobes: from 64 samples, 0.37 nats instead of 0.29 for kappa to 3000.
 struct VmfPrior {
   float v = 1.01f;        // >= 1
-  float strength = 0.2f;  // > 0
-  float length = 0;       // in [0, 1)
+  float strength = 0.1f;  // >= 0; without, one sample is a lobe of kMaxKappa
+  float length = 0.5f;    // in [0, 1)
 };
 
 struct WeightedDirection {

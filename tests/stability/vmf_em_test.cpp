@@ -52,8 +52,8 @@ TEST(DegenerateDirections, OneSampleGivesOneLobeOfThePriorsWidth) {
     expect_valid(components);
     ASSERT_EQ(components.size(), 1u);
     EXPECT_LT((components[0].mean - somewhere()).norm(), 1e-6);
-    const float samples = 10;  // of the stream
-    EXPECT_LE(components[0].kappa, 1.01f * (samples + VmfPrior().strength) / VmfPrior().strength);
+    EXPECT_GT(components[0].kappa, 20);
+    EXPECT_LT(components[0].kappa, 210);  // ten updates
   }
 }
 
@@ -87,14 +87,14 @@ TEST(DegenerateDirections, SamplesOnAGreatCircleOrAtAntipodesAreAMixture) {
   }
 }
 
-TEST(DegenerateDirections, OneLobeOfBalancedSamplesIsUniform) {
+TEST(DegenerateDirections, OneLobeOfBalancedSamplesIsNearlyUniform) {
   const Points poles = {{Vec3::UnitZ(), 1}, {Vec3(0, 0, -1), 1}};
   VmfEmOptions options;
   options.components = 1;
   const Components components =
       fit_vmf_mixture(poles, options, std::array{VmfComponent{1, Vec3::UnitX(), 0}}).components;
   expect_valid(components);
-  EXPECT_EQ(components[0].kappa, 0);
+  EXPECT_LT(components[0].kappa, 0.1f);
 }
 
 TEST(DegenerateDirections, NoSampleOrNoWeightGivesNoMixture) {
