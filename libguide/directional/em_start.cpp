@@ -1,56 +1,15 @@
-#include "libguide/base/sampler.h"
+#include "libguide/directional/em_centres.h"
 #include "libguide/directional/em_step.h"
 
 namespace waylight {
 namespace {
 
-constexpr uint64_t kStartSeed = 0x5eed;
-constexpr int kLloydRounds = 3;
-
-// The point at which the running sum of `weights` reaches the fraction u of their total; -1 where
-// they are all zero.
-int pick(std::span<const double> weights, double u) {
-  double total = 0, sum = 0;
-  for (double w : weights) total += w;
-  if (!(total > 0)) return -1;
-  int last = -1;
-  for (size_t i = 0; i < weights.size(); ++i) {
-    if (!(weights[i] > 0)) continue;
-    last = static_cast<int>(i);
-    sum += weights[i];
-    if (sum > u * total) break;
-  }
-  return last;
-}
-
-// k-means++ [Arthur, Vassilvitskii 2007]: each next centre by weight times squared distance.
-std::vector<Vec2> spread_centres(std::span<const WeightedPoint> points, const BatchWeights& weights,
-                                 int count) {
-  std::vector<double> cost(points.size(), 0);
+std::vector<Vec2> first_centres(std::span<const WeightedPoint> points, const BatchWeights& weights,
+                                int count) {
+  std::vector<double> weight(points.size(), 0);
   for (size_t i = 0; i < points.size(); ++i)
-    if (valid_point(points[i])) cost[i] = std::min(points[i].weight, weights.cap);
-  const std::vector<double> weight = cost;
-  std::vector<double> distance2(points.size(), std::numeric_limits<double>::infinity());
-  std::vector<Vec2> centres;
-  for (int k = 0; k < count; ++k) {
-    const int chosen = pick(cost, Sampler(kStartSeed, 0, k).next());
-    if (chosen < 0) break;
-    centres.push_back(points[chosen].y);
-    for (size_t i = 0; i < points.size(); ++i) {
-      if (!(weight[i] > 0)) continue;
-      distance2[i] = std::min<double>(distance2[i], (points[i].y - centres.back()).squaredNorm());
-      cost[i] = weight[i] * distance2[i];
-    }
-  }
-  return centres;
-}
-
-int nearest(const Vec2& y, std::span<const Vec2> centres) {
-  int best = 0;
-  for (size_t k = 1; k < centres.size(); ++k)
-    if ((y - centres[k]).squaredNorm() < (y - centres[best]).squaredNorm())
-      best = static_cast<int>(k);
-  return best;
+    if (valid_point(points[i])) weight[i] = std::min(points[i].weight, weights.cap);
+  return spread_centres<Vec2>(weight, [&](size_t i) { return points[i].y; }, count);
 }
 
 // Statistics of the clusters of the nearest centre, normalised.
@@ -89,7 +48,7 @@ std::vector<GaussianComponent> initial_components(std::span<const WeightedPoint>
                                                   const MixturePrior& prior) {
   const BatchWeights weights = scan_weights(points, kMaxTrainingWeight);
   if (weights.used == 0) return {};
-  std::vector<Vec2> centres = spread_centres(points, weights, std::clamp(count, 1, kMaxEmComponents));
+  std::vector<Vec2> centres = first_centres(points, weights, std::clamp(count, 1, kMaxEmComponents));
   for (int round = 0; round < kLloydRounds; ++round)
     move_to_means(cluster(points, weights, centres), centres);
   return cluster_components(points, weights, centres, prior);

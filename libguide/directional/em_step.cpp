@@ -1,38 +1,9 @@
 #include "libguide/directional/em_step.h"
 
-#include "libguide/math/fast_log.h"
-
 namespace waylight {
 namespace {
 
-constexpr float kMinSupport = 1e-3f;                      // of a sample
 constexpr float kPlaceLimit = kDiskMaxRadius2 * 1.0001f;  // of |y|^2, with room for rounding
-
-// Rows of eight points whose responsibilities fit the first-level cache of the processor, and that
-// are summed in float before they go into doubles.
-constexpr size_t kBlockRows = 16;
-using Shares = Lanes[kMaxEmComponents][kBlockRows];  // responsibility times weight
-
-// Returns the weighted sum of log2 of the mixture's density if asked for.
-template <Likelihood likelihood>
-double share_out(std::span<const PointRow> rows, std::span<const Responsibility> model,
-                 Shares& shares) {
-  Lanes log2_likelihood{};
-  for (size_t r = 0; r < rows.size(); ++r) {
-    Lanes largest = splat(-1e30f), sum{};
-    for (size_t k = 0; k < model.size(); ++k) {
-      shares[k][r] = model[k].log2_density(rows[r].x, rows[r].y);
-      largest = lanes_max(largest, shares[k][r]);
-    }
-    for (size_t k = 0; k < model.size(); ++k)
-      sum += shares[k][r] = exp2_clamped(shares[k][r] - largest);
-    const Lanes scale = rows[r].weight / sum;
-    for (size_t k = 0; k < model.size(); ++k) shares[k][r] *= scale;
-    if constexpr (likelihood == Likelihood::sum)
-      log2_likelihood += rows[r].weight * (largest + lanes_log2(sum));
-  }
-  return lanes_sum(log2_likelihood);
-}
 
 // About the component's old mean.
 void add_moments(std::span<const PointRow> rows, const Responsibility& component,
@@ -62,20 +33,6 @@ ComponentStatistics recentred(const Moments& sums, double total, const GaussianC
   return s;
 }
 
-struct CutSums {
-  double sum = 0, squares = 0;
-};
-
-CutSums cut_sums(std::span<const WeightedPoint> points, double cap) {
-  CutSums result;
-  for (const WeightedPoint& p : points) {
-    if (!valid_point(p)) continue;
-    const double w = std::min<double>(p.weight, cap);
-    result.sum += w, result.squares += w * w;
-  }
-  return result;
-}
-
 }  // namespace
 
 bool valid_point(const WeightedPoint& point) {
@@ -85,28 +42,13 @@ bool valid_point(const WeightedPoint& point) {
 }
 
 BatchWeights scan_weights(std::span<const WeightedPoint> points, float max_weight) {
-  BatchWeights result;
-  float largest = 0;
-  for (const WeightedPoint& p : points) {
-    const bool valid = valid_point(p);
-    result.used += valid;
-    result.rejected += !valid && !(p.weight == 0 && p.y.squaredNorm() <= kPlaceLimit);
-    if (valid) largest = std::max(largest, p.weight);
-  }
-  if (result.used == 0) return result;
-  // The cap is a fixed point, cap = ratio * mean(min(w, cap)), sought from above: each round takes
-  // an outlier down by the factor ratio / n <= 1/2.
-  const double ratio = std::max(1.0, std::min<double>(max_weight, 0.5 * result.used));
-  CutSums sums = cut_sums(points, largest);
-  double cap = largest;
-  for (int round = 0; round < 128 && ratio * sums.sum < 0.999 * cap * result.used; ++round) {
-    cap = ratio * sums.sum / result.used;
-    sums = cut_sums(points, cap);
-  }
-  result.cap = static_cast<float>(cap);
-  result.scale = static_cast<float>(result.used / sums.sum);
-  result.effective = static_cast<float>(sums.sum * sums.sum / sums.squares);
-  return result;
+  const auto weight_of = [&](size_t i) {
+    const WeightedPoint& p = points[i];
+    if (valid_point(p)) return p.weight;
+    const bool weightless = p.weight == 0 && p.y.squaredNorm() <= kPlaceLimit;
+    return weightless ? 0 : std::numeric_limits<float>::quiet_NaN();
+  };
+  return scan_weights(points.size(), weight_of, max_weight);
 }
 
 Responsibility::Responsibility(const GaussianComponent& c) : mean_x(c.mean_x), mean_y(c.mean_y) {

@@ -3,18 +3,10 @@
 
 #include <array>
 
+#include "libguide/directional/em_batch.h"
 #include "libguide/directional/expectation_maximization.h"
-#include "libguide/math/lanes.h"
 
 namespace waylight {
-
-// How the weights of a batch are to be read.
-struct BatchWeights {
-  int used = 0, rejected = 0;  // points of weight 0 are neither
-  float cap = 0;               // weights are cut here
-  float scale = 0;             // 1 / the mean of the cut positive weights
-  float effective = 0;         // (sum w)^2 / sum w^2 of the cut weights
-};
 
 bool valid_point(const WeightedPoint& point);
 BatchWeights scan_weights(std::span<const WeightedPoint> points, float max_weight);
@@ -25,12 +17,11 @@ struct BatchStatistics {
   double log_likelihood = 0;  // mean by weight, natural logarithm; only if asked for
 };
 
-// Eight points, so that no sum runs across lanes before the end. Those that are no valid points,
-// and those that fill the last row up, have weight zero.
+// Eight points. Those that are no valid points, and those that fill the last row up, have weight
+// zero.
 struct PointRow {
   Lanes x{}, y{}, weight{};
 };
-inline size_t row_count(size_t points) { return (points + kLanes - 1) / kLanes; }
 void fill_rows(std::span<const WeightedPoint> points, const BatchWeights& weights,
                std::span<PointRow> rows);  // of row_count(points.size())
 
@@ -43,16 +34,13 @@ struct Responsibility {
   Responsibility() = default;
   explicit Responsibility(const GaussianComponent& c);
 
-  // log2 of weight times density. Subtracting the largest before the exponential keeps a point far
-  // from all lobes with the nearest one.
-  Lanes log2_density(Lanes x, Lanes y) const {
-    const Lanes dx = x - mean_x;
-    const Lanes a = dx * inverse_a, b = ((y - mean_y) - slope * dx) * inverse_b;
+  // Of weight times density.
+  Lanes log2_density(const PointRow& row) const {
+    const Lanes dx = row.x - mean_x;
+    const Lanes a = dx * inverse_a, b = ((row.y - mean_y) - slope * dx) * inverse_b;
     return log2_norm - a * a - b * b;
   }
 };
-
-enum class Likelihood { skip, sum };
 
 // The E-step over a batch, block by block.
 class Expectation {

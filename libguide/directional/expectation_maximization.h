@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "libguide/directional/em_batch.h"
 #include "libguide/directional/gaussian_mixture.h"
 #include "libguide/records/guide_cache.h"
 
@@ -22,14 +23,6 @@ struct WeightedPoint {
   Vec2 y;
   float weight;  // non-negative, finite; others are rejected and counted
 };
-
-// In training only: no sample weighs more than this many times the mean weight of its batch (after
-// capping), nor more than all others of the batch together. Energy that is carried by more than one
-// sample in 32 is left alone; a firefly is bounded.
-inline constexpr float kMaxTrainingWeight = 32;
-
-// More than a GaussianMixture holds: fits may begin with more and be reduced.
-inline constexpr int kMaxEmComponents = 16;
 
 struct EmOptions {
   int components = 8;  // 1..kMaxEmComponents
@@ -66,10 +59,6 @@ std::vector<GaussianComponent> components_around(std::span<const WeightedPoint> 
 // result.
 // step: updates made so far, advanced by one unless no point of the batch is valid.
 // samples: effective number of samples that the statistics stand for; it scales the prior.
-struct StepwiseResult {
-  int count = 0;
-  int rejected = 0;
-};
 StepwiseResult stepwise_update(std::span<GaussianComponent> components,
                                std::span<ComponentStatistics> statistics, float& step,
                                std::span<const WeightedPoint> batch, float samples,
