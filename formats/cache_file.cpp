@@ -1,25 +1,21 @@
 #include "formats/cache_file.h"
 
-#include "formats/cache_generated.h"
+#include "formats/cache_records.h"
 #include "formats/file_bytes.h"
 #include "formats/file_map.h"
-#include "formats/flat_file.h"
-#include "formats/flat_records.h"
+#include "formats/medium_part.h"
 #include "libguide/cache/training_check.h"
 
 namespace waylight {
-
-FLAT_RECORD(CacheNode, fbs::CacheNode);
-FLAT_RECORD(CacheCell, fbs::CacheCell);
-FLAT_RECORD(ComponentStatistics, fbs::ComponentStatistics);
-FLAT_RECORD(CellTraining, fbs::CellTraining);
-static_assert(offsetof(CacheCell, irradiance) == 12 && offsetof(CacheCell, component_count) == 32);
-static_assert(offsetof(CellTraining, flux) == 64 && offsetof(CellTraining, weight_sum) == 96);
-
 namespace {
 
-// Readers of version 1 take everything for radiance.
-constexpr uint32_t kFormatVersion = 2, kRadianceVersion = 1;
+// Readers of version 1 take everything for radiance; those of version 2 know no media.
+constexpr uint32_t kFormatVersion = 3, kImportanceVersion = 2, kRadianceVersion = 1;
+
+uint32_t version_of(const GuideCache& cache) {
+  if (!cache.medium.cells.empty()) return kFormatVersion;
+  return cache.quantity == Quantity::radiance ? kRadianceVersion : kImportanceVersion;
+}
 
 size_t bytes_needed(const CacheFile& file) {
   const GuideCache& c = file.cache;
@@ -27,15 +23,15 @@ size_t bytes_needed(const CacheFile& file) {
          c.cells.size() * sizeof(CacheCell) + c.components.size() * sizeof(GaussianComponent) +
          c.statistics.size() * sizeof(ComponentStatistics) +
          c.training.size() * sizeof(CellTraining) +
-         (c.escape_bins.size() + c.escape_weights.size()) * sizeof(float);
+         (c.escape_bins.size() + c.escape_weights.size()) * sizeof(float) + medium_bytes(c.medium);
 }
 
 // What is wrong with the training part; check() of the view comes first.
 std::string check_training_part(const GuideCache& cache) {
-  if (cache.statistics.empty() && cache.training.empty()) return {};
-  if (cache.statistics.size() != cache.components.size() ||
-      cache.training.size() != cache.cells.size())
-    return "the training statistics do not belong to the cells";
+  const MediumCache& medium = cache.medium;
+  if (cache.statistics.empty() && cache.training.empty() && medium.statistics.empty() &&
+      medium.training.empty())
+    return {};
   return check_training(cache);
 }
 
@@ -77,18 +73,19 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
   const auto components = add_records(builder, c.components);
   const auto cells = add_records(builder, c.cells);
   const auto nodes = add_records(builder, c.nodes);
-  const bool radiance = c.quantity == Quantity::radiance;
   flatbuffers::Offset<flatbuffers::Vector<uint32_t>> escape_bins;
   flatbuffers::Offset<flatbuffers::Vector<float>> escape_weights;
   if (!c.escape_bins.empty()) escape_bins = builder.CreateVector(c.escape_bins);
   if (!c.escape_bins.empty()) escape_weights = builder.CreateVector(c.escape_weights);
+  const MediumPart medium = add_medium(builder, c.medium);
   const auto provenance = add_provenance(builder, file.provenance);
   const fbs::Bounds bounds = waylight::to_flat(c.scene_bounds);
   fbs::FinishGuideCacheBuffer(
-      builder, fbs::CreateGuideCache(builder, radiance ? kRadianceVersion : kFormatVersion,
-                                     provenance, &bounds, c.emitted, c.passes, c.photons, nodes,
-                                     cells, components, statistics, training,
-                                     waylight::to_flat(c.quantity), escape_bins, escape_weights));
+      builder, fbs::CreateGuideCache(
+                   builder, version_of(c), provenance, &bounds, c.emitted, c.passes, c.photons,
+                   nodes, cells, components, statistics, training, waylight::to_flat(c.quantity),
+                   escape_bins, escape_weights, c.medium.emitted, c.medium.photons, medium.nodes,
+                   medium.cells, medium.components, medium.statistics, medium.training));
 }
 
 const fbs::GuideCache& root_of(const FileMap& map) {
@@ -108,6 +105,7 @@ GuideCacheView view_of(const fbs::GuideCache& root, const std::string& path) {
   view.quantity = quantity_from(root.quantity(), path);
   view.escape_bins = numbers_of(root.escape_bins());
   view.escape_weights = numbers_of(root.escape_weights());
+  view.medium = medium_view_of(root, path);
   if (const std::string fault = check(view); !fault.empty()) fail_damaged(path, fault);
   return view;
 }
@@ -127,6 +125,7 @@ GuideCache copy_of(const fbs::GuideCache& root, const std::string& path) {
   cache.components = waylight::copy_of(view.components);
   cache.statistics = waylight::copy_of(records_of<ComponentStatistics>(root.statistics(), path));
   cache.training = waylight::copy_of(records_of<CellTraining>(root.training(), path));
+  cache.medium = medium_copy_of(root, path);
   return cache;
 }
 

@@ -6,16 +6,27 @@
 namespace waylight {
 namespace {
 
-// Readers of version 1 take everything for radiance, and know no escapes.
-constexpr uint32_t kFormatVersion = 2, kRadianceVersion = 1;
+// Readers of version 1 take everything for radiance, and know no escapes; those of version 2 know
+// no media.
+constexpr uint32_t kFormatVersion = 3, kImportanceVersion = 2, kRadianceVersion = 1;
 
 static_assert(sizeof(fbs::Photon) == 36 && sizeof(fbs::Escape) == 32);
+static_assert(sizeof(fbs::MediumPhoton) == 32);
+
+uint32_t version_of(const PhotonStreamInfo& stream) {
+  if (stream.media) return kFormatVersion;
+  return stream.quantity == Quantity::radiance ? kRadianceVersion : kImportanceVersion;
+}
 
 // A NaN fails every comparison.
 bool sensible(const Vec3& position, const Color& power) {
   constexpr float kMax = std::numeric_limits<float>::max();
   return (position.array().abs() <= kMax).all() && (power >= 0).all() && (power <= kMax).all();
 }
+
+bool sensible(const Photon& p) { return sensible(p.position, p.power); }
+bool sensible(const Escape& e) { return sensible(e.origin, e.power); }
+bool sensible(const MediumPhoton& p) { return sensible(p.position, p.weight); }
 
 bool is_unit(const Vec3& w) { return std::abs(w.squaredNorm() - 1) < 1e-3f; }
 
@@ -39,17 +50,43 @@ Escape unpack(const fbs::Escape& flat) {
           from_flat(flat.power()).array(), flat.path_depth()};
 }
 
+MediumPhoton unpack(const fbs::MediumPhoton& flat) {
+  return {from_flat(flat.position()), from_octahedral({flat.direction_u(), flat.direction_v()}),
+          from_flat(flat.weight()).array(), flat.path_depth()};
+}
+
+// All records of a block; `what` names one.
+template <typename Record, typename Flat>
+void unpack_all(const flatbuffers::Vector<const Flat*>* packed, const std::string& path,
+                const char* what, std::vector<Record>* records) {
+  records->resize(packed ? packed->size() : 0);
+  for (uint32_t i = 0; i < records->size(); ++i) {
+    Record& record = (*records)[i];
+    record = unpack(*packed->Get(i));
+    if (!sensible(record))
+      fail_damaged(path, fmt::format("{} is not finite or of negative power", what));
+  }
+}
+
 }  // namespace
 
+fbs::MediumPhoton pack(const MediumPhoton& p, const std::string& path) {
+  if (!sensible(p) || !is_unit(p.direction))
+    fail("\"{}\": a photon in a medium is not finite, of negative weight or without unit direction",
+         path);
+  const Octahedral direction = to_octahedral(p.direction);
+  return {to_flat(p.position), to_flat(p.weight), direction.u, direction.v, p.path_depth};
+}
+
 fbs::Escape pack(const Escape& e, const std::string& path) {
-  if (!sensible(e.origin, e.power) || !is_unit(e.direction))
+  if (!sensible(e) || !is_unit(e.direction))
     fail("\"{}\": an escape is not finite, of negative power or without unit direction", path);
   const Octahedral direction = to_octahedral(e.direction);
   return {to_flat(e.origin), to_flat(e.power), direction.u, direction.v, e.path_depth};
 }
 
 fbs::Photon pack(const Photon& p, const std::string& path) {
-  if (!sensible(p.position, p.power) || !is_unit(p.direction) || !is_unit(p.normal))
+  if (!sensible(p) || !is_unit(p.direction) || !is_unit(p.normal))
     fail("\"{}\": a photon is not finite, of negative power or without unit directions", path);
   const Octahedral direction = to_octahedral(p.direction), normal = to_octahedral(p.normal);
   return {to_flat(p.position), to_flat(p.power), direction.u, direction.v, normal.u, normal.v,
@@ -64,11 +101,9 @@ void build_header(flatbuffers::FlatBufferBuilder& builder, const PhotonHeader& h
   const auto provenance = add_provenance(builder, header.provenance);
   const PhotonStreamInfo& stream = header.stream;
   const fbs::Bounds bounds = to_flat(stream.scene_bounds);
-  const uint32_t version =
-      stream.quantity == Quantity::radiance ? kRadianceVersion : kFormatVersion;
-  const auto flat = fbs::CreatePhotonHeader(builder, version, provenance,
-                                            stream.scene_bounds.empty() ? nullptr : &bounds,
-                                            stream.emitted, stream.pass, to_flat(stream.quantity));
+  const auto flat = fbs::CreatePhotonHeader(
+      builder, version_of(stream), provenance, stream.scene_bounds.empty() ? nullptr : &bounds,
+      stream.emitted, stream.pass, to_flat(stream.quantity), stream.media);
   finish(builder, fbs::ChunkContent::PhotonHeader, flat.Union());
 }
 
@@ -84,10 +119,17 @@ void build_block(flatbuffers::FlatBufferBuilder& builder, std::span<const fbs::E
   finish(builder, fbs::ChunkContent::EscapeBlock, fbs::CreateEscapeBlock(builder, vector).Union());
 }
 
+void build_block(flatbuffers::FlatBufferBuilder& builder,
+                 std::span<const fbs::MediumPhoton> photons) {
+  builder.Clear();
+  const auto vector = builder.CreateVectorOfStructs(photons.data(), photons.size());
+  finish(builder, fbs::ChunkContent::MediumBlock, fbs::CreateMediumBlock(builder, vector).Union());
+}
+
 void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& c) {
   builder.Clear();
   const auto end = fbs::CreatePhotonEnd(builder, c.emitted, c.stored, c.left_scene, c.absorbed,
-                                        c.too_deep, c.invalid, c.escapes);
+                                        c.too_deep, c.invalid, c.escapes, c.in_media);
   finish(builder, fbs::ChunkContent::PhotonEnd, end.Union());
 }
 
@@ -115,31 +157,23 @@ PhotonHeader header_of(const fbs::PhotonHeader& flat, size_t chunk_bytes, const 
   header.stream.emitted = flat.emitted();
   header.stream.pass = flat.pass();
   header.stream.quantity = quantity_from(flat.quantity(), path);
+  header.stream.media = flat.media();
   return header;
 }
 
 void photons_of(const fbs::PhotonBlock& flat, const std::string& path,
                 std::vector<Photon>* photons) {
-  const auto* packed = flat.photons();
-  photons->resize(packed ? packed->size() : 0);
-  for (uint32_t i = 0; i < photons->size(); ++i) {
-    Photon& photon = (*photons)[i];
-    photon = unpack(*packed->Get(i));
-    if (!sensible(photon.position, photon.power))
-      fail_damaged(path, "a photon is not finite or of negative power");
-  }
+  unpack_all(flat.photons(), path, "a photon", photons);
 }
 
 void escapes_of(const fbs::EscapeBlock& flat, const std::string& path,
                 std::vector<Escape>* escapes) {
-  const auto* packed = flat.escapes();
-  escapes->resize(packed ? packed->size() : 0);
-  for (uint32_t i = 0; i < escapes->size(); ++i) {
-    Escape& escape = (*escapes)[i];
-    escape = unpack(*packed->Get(i));
-    if (!sensible(escape.origin, escape.power))
-      fail_damaged(path, "an escape is not finite or of negative power");
-  }
+  unpack_all(flat.escapes(), path, "an escape", escapes);
+}
+
+void medium_photons_of(const fbs::MediumBlock& flat, const std::string& path,
+                       std::vector<MediumPhoton>* photons) {
+  unpack_all(flat.photons(), path, "a photon in a medium", photons);
 }
 
 PhotonCounts counts_of(const fbs::PhotonEnd& flat) {
@@ -151,6 +185,7 @@ PhotonCounts counts_of(const fbs::PhotonEnd& flat) {
   counts.too_deep = flat.too_deep();
   counts.invalid = flat.invalid();
   counts.escapes = flat.escapes();
+  counts.in_media = flat.in_media();
   return counts;
 }
 

@@ -21,12 +21,15 @@ inline constexpr size_t kMaxChunkBytes = size_t{4} << 20;
 // messages.
 fbs::Photon pack(const Photon& photon, const std::string& path);
 fbs::Escape pack(const Escape& escape, const std::string& path);
+fbs::MediumPhoton pack(const MediumPhoton& photon, const std::string& path);
 
 // Each replaces what the builder held by one finished chunk.
 void build_header(flatbuffers::FlatBufferBuilder& builder, const PhotonHeader& header,
                   const std::string& path);
 void build_block(flatbuffers::FlatBufferBuilder& builder, std::span<const fbs::Photon> photons);
 void build_block(flatbuffers::FlatBufferBuilder& builder, std::span<const fbs::Escape> escapes);
+void build_block(flatbuffers::FlatBufferBuilder& builder,
+                 std::span<const fbs::MediumPhoton> photons);
 void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& counts);
 
 // A chunk with its size prefix, verified.
@@ -37,6 +40,8 @@ void photons_of(const fbs::PhotonBlock& flat, const std::string& path,
                 std::vector<Photon>* photons);
 void escapes_of(const fbs::EscapeBlock& flat, const std::string& path,
                 std::vector<Escape>* escapes);
+void medium_photons_of(const fbs::MediumBlock& flat, const std::string& path,
+                       std::vector<MediumPhoton>* photons);
 PhotonCounts counts_of(const fbs::PhotonEnd& flat);
 
 }  // namespace waylight

@@ -47,17 +47,35 @@ struct PhotonReader::Impl {
     header = header_of(*flat, buffer.size(), source.name());
   }
 
+  void read_block(const fbs::PhotonChunk& chunk, std::vector<Photon>& photons,
+                  std::vector<Escape>& escapes, std::vector<MediumPhoton>& in_media) {
+    if (const fbs::PhotonBlock* block = chunk.content_as_PhotonBlock())
+      photons_of(*block, source.name(), &photons);
+    else if (const fbs::EscapeBlock* escaped = chunk.content_as_EscapeBlock())
+      escapes_of(*escaped, source.name(), &escapes);
+    else if (const fbs::MediumBlock* medium = chunk.content_as_MediumBlock();
+             medium && header.stream.media)
+      medium_photons_of(*medium, source.name(), &in_media);
+    else
+      fail_damaged(source.name(), "a chunk that is out of place");
+    photons_read += photons.size();
+    escapes_read += escapes.size();
+    in_media_read += in_media.size();
+  }
+
   void read_end(const fbs::PhotonEnd& flat) {
     counts = counts_of(flat);
-    if (counts.stored != photons_read)
-      fail_damaged(source.name(),
-                   fmt::format("{} photons, and its end says {}", photons_read, counts.stored));
-    if (counts.escapes != escapes_read)
-      fail_damaged(source.name(),
-                   fmt::format("{} escapes, and its end says {}", escapes_read, counts.escapes));
+    check_count("photons", photons_read, counts.stored);
+    check_count("escapes", escapes_read, counts.escapes);
+    check_count("photons in media", in_media_read, counts.in_media);
     char extra;
     if (source.read({&extra, 1}) != 0) fail_damaged(source.name(), "data after its end");
     ended = true;
+  }
+
+  void check_count(const char* what, uint64_t read, uint64_t said) const {
+    if (read != said)
+      fail_damaged(source.name(), fmt::format("{} {}, and its end says {}", read, what, said));
   }
 
   void check_size(size_t bytes) const {
@@ -76,8 +94,9 @@ struct PhotonReader::Impl {
   size_t chunk_size = 0;
   PhotonHeader header;
   PhotonCounts counts;
-  uint64_t photons_read = 0, escapes_read = 0;
-  std::vector<Escape> unwanted;
+  uint64_t photons_read = 0, escapes_read = 0, in_media_read = 0;
+  std::vector<Escape> unwanted_escapes;
+  std::vector<MediumPhoton> unwanted_in_media;
   bool ended = false;
 };
 
@@ -89,10 +108,13 @@ PhotonReader::~PhotonReader() = default;
 
 const PhotonHeader& PhotonReader::header() const { return impl_->header; }
 
-bool PhotonReader::read(std::vector<Photon>* photons, std::vector<Escape>* escapes) {
-  if (!escapes) escapes = &impl_->unwanted;
+bool PhotonReader::read(std::vector<Photon>* photons, std::vector<Escape>* escapes,
+                        std::vector<MediumPhoton>* in_media) {
+  if (!escapes) escapes = &impl_->unwanted_escapes;
+  if (!in_media) in_media = &impl_->unwanted_in_media;
   photons->clear();
   escapes->clear();
+  in_media->clear();
   if (impl_->ended) return false;
   const fbs::PhotonChunk* chunk = impl_->next_chunk();
   if (!chunk) impl_->fail_truncated();
@@ -100,15 +122,7 @@ bool PhotonReader::read(std::vector<Photon>* photons, std::vector<Escape>* escap
     impl_->read_end(*end);
     return false;
   }
-  if (const fbs::EscapeBlock* block = chunk->content_as_EscapeBlock()) {
-    escapes_of(*block, impl_->source.name(), escapes);
-    impl_->escapes_read += escapes->size();
-    return true;
-  }
-  const fbs::PhotonBlock* block = chunk->content_as_PhotonBlock();
-  if (!block) fail_damaged(impl_->source.name(), "a chunk that is out of place");
-  photons_of(*block, impl_->source.name(), photons);
-  impl_->photons_read += photons->size();
+  impl_->read_block(*chunk, *photons, *escapes, *in_media);
   return true;
 }
 

@@ -34,13 +34,16 @@ struct PhotonWriter::Impl {
   flatbuffers::FlatBufferBuilder builder;
   std::vector<fbs::Photon> pending;
   std::vector<fbs::Escape> pending_escapes;
-  uint64_t stored = 0, escapes = 0;
+  std::vector<fbs::MediumPhoton> pending_in_media;
+  uint64_t stored = 0, escapes = 0, in_media = 0;
   Quantity quantity;
+  bool media;
 };
 
 PhotonWriter::PhotonWriter(const std::string& path, const PhotonHeader& header)
     : impl_(std::make_unique<Impl>(path)) {
   impl_->quantity = header.stream.quantity;
+  impl_->media = header.stream.media;
   build_header(impl_->builder, header, path);
   impl_->write_chunk();
 }
@@ -57,12 +60,24 @@ void PhotonWriter::write(std::span<const Escape> escapes) {
   impl_->append(escapes, impl_->pending_escapes, impl_->escapes);
 }
 
+void PhotonWriter::write(std::span<const MediumPhoton> photons) {
+  if (!impl_->media && !photons.empty())
+    fail("\"{}\": photons in media, in a stream whose header says that there are none",
+         impl_->path);
+  impl_->append(photons, impl_->pending_in_media, impl_->in_media);
+}
+
 void PhotonWriter::finish(const PhotonCounts& counts) {
   impl_->flush(impl_->pending, impl_->stored);
   impl_->flush(impl_->pending_escapes, impl_->escapes);
-  if (counts.stored != impl_->stored || counts.escapes != impl_->escapes)
-    fail("\"{}\": {} photons and {} escapes were written, {} and {} counted", impl_->path,
-         impl_->stored, impl_->escapes, counts.stored, counts.escapes);
+  impl_->flush(impl_->pending_in_media, impl_->in_media);
+  if (counts.stored != impl_->stored || counts.escapes != impl_->escapes ||
+      counts.in_media != impl_->in_media)
+    fail(
+        "\"{}\": {} photons, {} escapes and {} photons in media were written, {}, {} and {} "
+        "counted",
+        impl_->path, impl_->stored, impl_->escapes, impl_->in_media, counts.stored, counts.escapes,
+        counts.in_media);
   build_end(impl_->builder, counts);
   impl_->write_chunk();
   impl_->sink.commit();

@@ -44,13 +44,15 @@ std::string check_escapes(const GuideCacheView& view) {
 }  // namespace
 
 std::string check(const GuideCacheView& view) {
-  if (!view.nodes.empty() && (view.scene_bounds.empty() || !view.scene_bounds.min.allFinite() ||
-                              !view.scene_bounds.max.allFinite()))
+  const bool has_cells = !view.nodes.empty() || !view.medium.nodes.empty();
+  if (has_cells && (view.scene_bounds.empty() || !view.scene_bounds.min.allFinite() ||
+                    !view.scene_bounds.max.allFinite()))
     return "the scene bounds are empty or not finite";
   if (std::string fault = check_tree(view.nodes, view.cells.size()); !fault.empty()) return fault;
   for (size_t i = 0; i < view.cells.size(); ++i)
     if (const std::string fault = check_cell(view.cells[i], view.components); !fault.empty())
       return fmt::format("cell {}: {}", i, fault);
+  if (const std::string fault = check(view.medium); !fault.empty()) return "media: " + fault;
   return check_escapes(view);
 }
 

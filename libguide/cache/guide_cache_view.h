@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "libguide/cache/medium_cache_view.h"
 #include "libguide/directional/gaussian_mixture.h"
 #include "libguide/records/guide_cache.h"
 
@@ -39,6 +40,7 @@ struct GuideCacheView {
   std::span<const GaussianComponent> components;
   std::span<const uint32_t> escape_bins;
   std::span<const float> escape_weights;
+  MediumCacheView medium;
 
   GuideCacheView() = default;
   GuideCacheView(const Bounds& bounds, std::span<const CacheNode> tree,
@@ -49,6 +51,7 @@ struct GuideCacheView {
     quantity = cache.quantity;
     escape_bins = cache.escape_bins;
     escape_weights = cache.escape_weights;
+    medium = MediumCacheView(cache.medium);
   }
   explicit GuideCacheView(GuideCache&&) = delete;  // it would dangle
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <initializer_list>
 
 namespace waylight {
 namespace {
@@ -12,37 +13,82 @@ bool valid(const ComponentStatistics& s) {
          std::isfinite(s.s2_xx) && std::isfinite(s.s2_xy) && std::isfinite(s.s2_yy);
 }
 
-bool valid_moments(const CellTraining& t) {
+bool valid(const VmfStatistics& s) { return std::isfinite(s.s0) && s.s0 >= 0 && s.s1.allFinite(); }
+
+template <typename Statistics>
+std::string check_statistics(const std::vector<Statistics>& statistics) {
+  for (size_t i = 0; i < statistics.size(); ++i)
+    if (!valid(statistics[i])) return fmt::format("statistics {} are not finite", i);
+  return {};
+}
+
+// Of either kind of training.
+template <typename Training>
+bool valid_positions(const Training& t) {
   return t.position_mean.allFinite() && t.position_m2.allFinite() && t.position_cross.allFinite() &&
-         t.normal_mean.allFinite() && t.normal_m2.allFinite() && t.position_m2.minCoeff() >= 0 &&
+         t.position_m2.minCoeff() >= 0;
+}
+
+bool valid_moments(const CellTraining& t) {
+  return valid_positions(t) && t.normal_mean.allFinite() && t.normal_m2.allFinite() &&
          t.normal_m2.minCoeff() >= 0;
 }
 
-bool finite_and_not_negative(double v) { return std::isfinite(v) && v >= 0; }
+bool finite_and_not_negative(std::initializer_list<double> values) {
+  for (const double v : values)
+    if (!std::isfinite(v) || v < 0) return false;
+  return true;
+}
 
-std::string fault_of(const CacheCell& cell, const CellTraining& t, double photons) {
-  if (!valid_moments(t)) return "moments that are not finite or negative";
-  for (double v : {double{t.count}, t.flux, double{t.inherited_area}, t.weight_sum,
-                   t.weight_sum2, double{t.step}, double{t.samples}})
-    if (!finite_and_not_negative(v)) return "a sum that is negative or not finite";
-  if (!(t.born >= 0 && t.born <= photons)) return "made after the last photon";
-  if ((t.step > 0) != (cell.component_count > 0)) return "steps without mixture or the reverse";
-  if (t.step > 0 && !(t.samples > 0 && t.weight_sum > 0 && cell.photon_count > 0))
+// What a cell of a surface and each kind of light in a medium have in common.
+template <typename Light, typename Training>
+std::string fault_of_mixture(const Light& light, const Training& t) {
+  if (!finite_and_not_negative({t.flux, t.step, t.samples, t.weight_sum, t.weight_sum2}))
+    return "a sum that is negative or not finite";
+  if ((t.step > 0) != (light.component_count > 0)) return "steps without mixture or the reverse";
+  if (t.step > 0 && !(t.samples > 0 && t.weight_sum > 0 && light.photon_count > 0))
     return "a mixture that stands for no photons";
   return {};
 }
 
-}  // namespace
+std::string fault_of(const CacheCell& cell, const CellTraining& t, double photons) {
+  if (!valid_moments(t)) return "moments that are not finite or negative";
+  if (!finite_and_not_negative({t.count, t.inherited_area}))
+    return "a sum that is negative or not finite";
+  if (!(t.born >= 0 && t.born <= photons)) return "made after the last photon";
+  return fault_of_mixture(cell, t);
+}
 
-std::string check_training(const GuideCache& cache) {
-  for (size_t i = 0; i < cache.statistics.size(); ++i)
-    if (!valid(cache.statistics[i])) return fmt::format("statistics {} are not finite", i);
+std::string fault_of(const MediumCell& cell, const MediumTraining& t, double photons) {
+  if (!valid_positions(t)) return "moments that are not finite or negative";
+  if (!finite_and_not_negative({t.count, t.inherited_volume}))
+    return "a sum that is negative or not finite";
+  if (!(t.born >= 0 && t.born <= photons)) return "made after the last photon";
+  const std::string fault = fault_of_mixture(cell.indirect, t.indirect);
+  return fault.empty() ? fault_of_mixture(cell.direct, t.direct) : fault;
+}
+
+// cache: of surfaces, or its part of media.
+template <typename Cache>
+std::string check_part(const Cache& cache) {
+  if (cache.training.size() != cache.cells.size() ||
+      cache.statistics.size() != cache.components.size())
+    return "the training statistics do not belong to the cells";
+  if (std::string fault = check_statistics(cache.statistics); !fault.empty()) return fault;
   for (size_t i = 0; i < cache.cells.size(); ++i) {
     const std::string fault =
         fault_of(cache.cells[i], cache.training[i], static_cast<double>(cache.photons));
     if (!fault.empty()) return fmt::format("cell {}: {}", i, fault);
   }
   return {};
+}
+
+}  // namespace
+
+std::string check_training(const GuideCache& cache) {
+  if (std::string fault = check_part(cache); !fault.empty()) return fault;
+  const std::string fault = check_part(cache.medium);
+  return fault.empty() ? fault : "media: " + fault;
 }
 
 }  // namespace waylight

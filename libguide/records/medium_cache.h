@@ -42,11 +42,13 @@ struct MediumTraining {
   Vec3 position_mean = Vec3::Zero(), position_m2 = Vec3::Zero(), position_cross = Vec3::Zero();
   float count = 0;
   double born = 0;             // photons of the whole training when the cell was made
+  uint64_t occupied = 0;       // of 4 x 4 x 4 parts of its box, x first: those that held a photon
   float inherited_volume = 0;  // share of the parent's, until the cell's own is known
   MediumLightTraining indirect, direct;
 };
 
 struct MediumCache {
+  uint64_t emitted = 0;  // particles of the streams that held photons of media
   uint64_t photons = 0;  // of media, in all streams, refused ones included
   std::vector<CacheNode> nodes;  // axes 0..2 only
   std::vector<MediumCell> cells;

@@ -72,6 +72,7 @@ struct PhotonStreamInfo {
   uint64_t emitted = 0;  // particles emitted for the whole stream; powers are divided by it already
   uint32_t pass = 0;
   Quantity quantity = Quantity::radiance;
+  bool media = false;  // the scene has media, and the stream may hold photons in them
 };
 
 }  // namespace waylight

@@ -25,6 +25,8 @@ class Damage : public TemporaryFiles {
     write_cache(path("good.cache"), small_cache());
     write_brdf(path("good.brdf"), small_brdf());
     write_photons(path("good.photons"), random_photons(50));
+    write_cache(path("good.media"), medium_cache());
+    write_medium_photons(path("good.medium-photons"), random_photons(5), random_medium_photons(40));
     write_exr(path("good.exr"), Image(2, 2, {"R", "G", "B"}));
   }
   std::string good(const Reader& reader) const {
@@ -37,6 +39,9 @@ const std::vector<Reader> kReaders = {
     {"cache", [](const std::string& path) { MappedCache{path}; }},
     {"brdf", [](const std::string& path) { read_brdf(path); }},
     {"photons", [](const std::string& path) { read_photons(path); }},
+    {"media", [](const std::string& path) { read_cache(path); }},
+    {"media", [](const std::string& path) { MappedCache{path}; }},
+    {"medium-photons", [](const std::string& path) { read_photons(path); }},
 };
 
 // True when the file was refused; any other exception fails the test.
@@ -131,7 +136,7 @@ std::string with_version(std::string bytes, uint32_t version, bool chunk) {
 
 TEST_F(Damage, NewerFormatVersionAsksForANewerRelease) {
   for (const Reader& reader : kReaders) {
-    const bool chunk = reader.name == std::string("photons");
+    const bool chunk = std::string(reader.name).ends_with("photons");
     const std::string newer = put("newer", with_version(good(reader), 9, chunk));
     const std::string message = error_of([&] { reader.read(newer); });
     EXPECT_TRUE(mentions(message, "format version 9")) << message;
@@ -170,7 +175,65 @@ TEST_F(Damage, WritersRefuseWhatReadersWould) {
     spoil(photons[1]);
     EXPECT_TRUE(mentions(error_of([&] { write_photons(path("x"), photons); }), "photon"));
   }
-  EXPECT_EQ(file_count(), 4u);  // nothing half-written
+  for (const auto& spoil : std::vector<std::function<void(MediumPhoton&)>>{
+           [](MediumPhoton& p) { p.position.x() = kInfinity; },
+           [](MediumPhoton& p) { p.weight.y() = std::nanf(""); },
+           [](MediumPhoton& p) { p.weight.z() = -1; }, [](MediumPhoton& p) { p.direction *= 2; }}) {
+    std::vector<MediumPhoton> photons = random_medium_photons(3);
+    spoil(photons[1]);
+    EXPECT_TRUE(mentions(error_of([&] { write_medium_photons(path("x"), {}, photons); }),
+                         "a photon in a medium"));
+  }
+  EXPECT_EQ(file_count(), 6u);  // nothing half-written
+}
+
+TEST_F(Damage, CachesOfMediaThatMakeNoSenseAreNotWritten) {
+  const auto refused_with = [&](const std::function<void(MediumCache&)>& damage) {
+    CacheFile file = medium_cache();
+    damage(file.cache.medium);
+    return error_of([&] { write_cache(path("x"), file); });
+  };
+  const auto nan = std::nanf("");
+  EXPECT_NO_THROW(write_cache(path("y"), medium_cache()));
+  EXPECT_TRUE(mentions(refused_with([](auto& m) { m.nodes[0].axis = 3; }), "media: node 0"));
+  EXPECT_TRUE(mentions(refused_with([](auto& m) { m.nodes[0].child = 0; }), "media: node 0"));
+  EXPECT_TRUE(mentions(refused_with([](auto& m) { m.cells.pop_back(); }), "media: 3 nodes"));
+  EXPECT_TRUE(mentions(refused_with([](auto& m) { m.cells[0].direct.component_count = 3; }),
+                       "direct light: components end past"));
+  EXPECT_TRUE(mentions(refused_with([](auto& m) { m.cells[0].indirect.component_count = 2; }),
+                       "indirect light: weights sum to"));
+  EXPECT_TRUE(mentions(refused_with([&](auto& m) { m.cells[0].indirect.fluence = nan; }),
+                       "a statistic is negative or not finite"));
+  for (const auto& damage : std::vector<std::function<void(VmfComponent&)>>{
+           [](VmfComponent& c) { c.weight = -1; }, [](VmfComponent& c) { c.kappa = -1; },
+           [](VmfComponent& c) { c.kappa = kInfinity; }, [](VmfComponent& c) { c.mean *= 0.9f; },
+           [&](VmfComponent& c) { c.mean.x() = nan; }, [&](VmfComponent& c) { c.kappa = nan; }})
+    EXPECT_TRUE(
+        mentions(refused_with([&](auto& m) { damage(m.components[0]); }), "valid von Mises"));
+  for (const auto& damage : std::vector<std::function<void(MediumCache&)>>{
+           [](MediumCache& m) { m.training.pop_back(); },
+           [](MediumCache& m) { m.statistics.pop_back(); },
+           [&](MediumCache& m) { m.statistics[1].s1.y() = nan; },
+           [](MediumCache& m) { m.training[0].position_m2.x() = -1; },
+           [](MediumCache& m) { m.training[0].born = 78; },
+           [](MediumCache& m) { m.training[0].indirect.step = 0; },
+           [](MediumCache& m) { m.training[0].direct.samples = 0; },
+           [&](MediumCache& m) { m.training[0].direct.flux = nan; },
+           [](MediumCache& m) { m.training[1].inherited_volume = -1; }})
+    EXPECT_TRUE(mentions(refused_with(damage), "media: "));
+}
+
+TEST_F(Damage, PhotonsOfMediaInAStreamWithoutThemAreOutOfPlace) {
+  const std::string with = read_whole_file(path("good.medium-photons"));
+  const std::string without = read_whole_file(path("good.photons"));
+  const auto end_of_header = [](const std::string& bytes) {
+    uint32_t size;
+    std::memcpy(&size, bytes.data(), 4);
+    return size + 4;
+  };
+  const std::string spliced =
+      without.substr(0, end_of_header(without)) + with.substr(end_of_header(with));
+  EXPECT_TRUE(mentions(error_of([&] { read_photons(put("x", spliced)); }), "out of place"));
 }
 
 TEST_F(Damage, StreamsWithoutEndOrWithMoreAfterItAreRefused) {

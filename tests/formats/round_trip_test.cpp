@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "formats/cache_generated.h"
 #include "formats/small_caches.h"
 #include "formats/temporary_files.h"
 #include "libguide/base/error.h"
@@ -281,6 +282,109 @@ TEST_F(RoundTrip, CacheOfImportance) {
   EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "a bin that does not exist";
   out.cache.escape_bins = {3};
   EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "weights without bin";
+}
+
+void expect_equal(const MediumLightTraining& a, const MediumLightTraining& b) {
+  EXPECT_EQ(a.flux, b.flux);
+  EXPECT_EQ(a.step, b.step);
+  EXPECT_EQ(a.samples, b.samples);
+  EXPECT_EQ(a.weight_sum, b.weight_sum);
+  EXPECT_EQ(a.weight_sum2, b.weight_sum2);
+}
+
+void expect_equal(const MediumTraining& a, const MediumTraining& b) {
+  EXPECT_EQ(a.position_mean, b.position_mean);
+  EXPECT_EQ(a.position_m2, b.position_m2);
+  EXPECT_EQ(a.position_cross, b.position_cross);
+  EXPECT_EQ(a.count, b.count);
+  EXPECT_EQ(a.born, b.born);
+  EXPECT_EQ(a.occupied, b.occupied);
+  EXPECT_EQ(a.inherited_volume, b.inherited_volume);
+  expect_equal(a.indirect, b.indirect);
+  expect_equal(a.direct, b.direct);
+}
+
+uint32_t version_of_cache(const std::string& path) {
+  const std::string bytes = read_whole_file(path);
+  return fbs::GetGuideCache(bytes.data())->format_version();
+}
+
+TEST_F(RoundTrip, CacheOfMedia) {
+  const CacheFile out = medium_cache();
+  write_cache(path("a.cache"), out);
+  EXPECT_EQ(version_of_cache(path("a.cache")), 3u);
+  const MediumCache in = read_cache(path("a.cache")).cache.medium;
+  const MediumCache& medium = out.cache.medium;
+  EXPECT_EQ(in.emitted, medium.emitted);
+  EXPECT_EQ(in.photons, medium.photons);
+  expect_same_bytes(in.nodes, medium.nodes);
+  expect_same_bytes(in.cells, medium.cells);
+  expect_same_bytes(in.components, medium.components);
+  expect_same_bytes(in.statistics, medium.statistics);
+  ASSERT_EQ(in.training.size(), 2u);
+  for (int i = 0; i < 2; ++i) expect_equal(in.training[i], medium.training[i]);
+}
+
+TEST_F(RoundTrip, MappedCacheOfMedia) {
+  const CacheFile out = medium_cache();
+  write_cache(path("a.cache"), out);
+  const MappedCache mapped(path("a.cache"));
+  const MediumCacheView view = mapped.view().medium;
+  const MediumCell* cell = view.query(Vec3(0, 0, 0.5f));
+  ASSERT_EQ(cell, &view.cells[0]);
+  EXPECT_EQ(view.query(Vec3(0, 0, 2)), &view.cells[1]);
+  ASSERT_EQ(view.lobes(cell->direct).size(), 2u);
+  EXPECT_EQ(view.lobes(cell->direct)[1].kappa, 1e4f);
+  EXPECT_TRUE(view.lobes(view.cells[1].direct).empty());
+  EXPECT_EQ(MediumCacheView().query(Vec3::Zero()), nullptr);
+}
+
+TEST_F(RoundTrip, CacheOfMediaAloneAndReduced) {
+  CacheFile file = medium_cache();
+  GuideCache& c = file.cache;
+  c.nodes.clear(), c.cells.clear(), c.components.clear(), c.statistics.clear(), c.training.clear();
+  write_cache(path("alone.cache"), file);
+  EXPECT_EQ(read_cache(path("alone.cache")).cache.medium.training.size(), 2u);
+  c.medium.statistics.clear(), c.medium.training.clear();
+  write_cache(path("reduced.cache"), file);
+  const CacheFile reduced = read_cache(path("reduced.cache"));
+  EXPECT_TRUE(reduced.cache.medium.training.empty());
+  EXPECT_EQ(reduced.cache.medium.cells.size(), 2u);
+}
+
+TEST_F(RoundTrip, CachesWithoutMediaKeepTheirVersion) {
+  write_cache(path("a.cache"), small_cache());
+  EXPECT_EQ(version_of_cache(path("a.cache")), 1u);
+}
+
+TEST_F(RoundTrip, PhotonsOfMedia) {
+  const std::vector<Photon> photons = random_photons(20'000);
+  const std::vector<MediumPhoton> out = random_medium_photons(18'000, 2);
+  write_medium_photons(path("a.photons"), photons, out);
+  PhotonReader reader(path("a.photons"));
+  EXPECT_TRUE(reader.header().stream.media);
+  std::vector<MediumPhoton> in, chunk;
+  size_t photons_in = 0;
+  for (std::vector<Photon> some; reader.read(&some, nullptr, &chunk); photons_in += some.size())
+    in.insert(in.end(), chunk.begin(), chunk.end());
+  EXPECT_EQ(photons_in, photons.size());
+  EXPECT_EQ(reader.counts().in_media, out.size());
+  ASSERT_EQ(in.size(), out.size());
+  for (size_t i = 0; i < in.size(); ++i) {
+    ASSERT_EQ(in[i].position, out[i].position);
+    ASSERT_TRUE((in[i].weight == out[i].weight).all());
+    ASSERT_EQ(in[i].path_depth, out[i].path_depth);
+    ASSERT_LT((in[i].direction - out[i].direction).norm(), 6.5e-5f);
+  }
+  EXPECT_EQ(read_photons(path("a.photons")).size(), photons.size()) << "who wants none of media";
+}
+
+TEST_F(RoundTrip, StreamThatSaysNothingOfMediaHasNone) {
+  PhotonWriter writer(path("a.photons"), small_header());
+  EXPECT_THROW(writer.write(random_medium_photons(1)), Error);
+  writer.write(std::span<const MediumPhoton>());
+  writer.finish({});
+  EXPECT_FALSE(PhotonReader(path("a.photons")).header().stream.media);
 }
 
 }  // namespace

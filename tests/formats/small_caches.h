@@ -49,6 +49,29 @@ inline CacheFile small_cache() {
   return file;
 }
 
+// The same with two cells of a medium, below and above z = 1: one lobe of indirect and two of
+// direct light in the first, none in the second.
+inline CacheFile medium_cache() {
+  CacheFile file = small_cache();
+  MediumCache& m = file.cache.medium;
+  m.emitted = 4'000'000'000;
+  m.photons = 77;
+  m.nodes = {{1, 1, 2}, {0, 0, kLeafAxis}, {0, 1, kLeafAxis}};
+  m.components = {
+      {1, Vec3(0.6f, 0, 0.8f), 20}, {0.25f, Vec3::UnitX(), 0}, {0.75f, -Vec3::UnitY(), 1e4f}};
+  m.cells.resize(2);
+  m.cells[0] = {{2.5f, 60, 40, 0, 1}, {0.5f, 40, 30, 1, 2}};
+  m.cells[1] = {{0.25f, 0, 0, 3, 0}, {0, 0, 0, 3, 0}};
+  m.statistics = {{1, Vec3(0.57f, 0, 0.76f)}, {0.25f, Vec3::Zero()}, {0.75f, Vec3(0, -0.75f, 0)}};
+  m.training.resize(2);
+  MediumTraining& t = m.training[0];
+  t.position_mean = Vec3(1, 2, 3), t.position_m2 = Vec3(4, 5, 6), t.position_cross = Vec3(-7, 8, 9);
+  t.count = 70, t.born = 7, t.inherited_volume = 2, t.occupied = 0x8000000000000001;
+  t.indirect = {1e300, 3, 40, 1.0 / 3, 0.125};
+  t.direct = {2, 1, 30, 3, 4};
+  return file;
+}
+
 inline BrdfFile small_brdf() {
   BrdfFile file{small_provenance(), {}};
   BrdfCache& c = file.cache;
@@ -89,6 +112,13 @@ inline std::vector<Photon> random_photons(size_t count, uint32_t seed = 1) {
   return photons;
 }
 
+inline std::vector<MediumPhoton> random_medium_photons(size_t count, uint32_t seed = 1) {
+  std::vector<MediumPhoton> in_media;
+  for (const Photon& p : random_photons(count, seed))
+    in_media.push_back({p.position, p.direction, p.power, p.path_depth});
+  return in_media;
+}
+
 inline PhotonHeader small_header() {
   return {small_provenance(), {{Vec3(-1, -2, -3), Vec3(1, 2, 3)}, 5'000'000'000, 3}};
 }
@@ -99,6 +129,19 @@ inline void write_photons(const std::string& path, const std::vector<Photon>& ph
   PhotonCounts counts;
   counts.emitted = 5'000'000'000, counts.stored = photons.size(), counts.left_scene = 11;
   counts.absorbed = 12, counts.too_deep = 13, counts.invalid = 14;
+  writer.finish(counts);
+}
+
+// Photons of surfaces, then those of media.
+inline void write_medium_photons(const std::string& path, const std::vector<Photon>& photons,
+                                 const std::vector<MediumPhoton>& in_media) {
+  PhotonHeader header = small_header();
+  header.stream.media = true;
+  PhotonWriter writer(path, header);
+  writer.write(photons);
+  writer.write(in_media);
+  PhotonCounts counts;
+  counts.stored = photons.size(), counts.in_media = in_media.size();
   writer.finish(counts);
 }
 
