@@ -18,8 +18,8 @@ class VmfConvolution {
  public:
   VmfConvolution(const VmfMixture& light, const PhaseLobes& phase);
 
-  // w: where the path from the camera goes on without scattering, -wo; the light's mixture is of the
-  // directions that light comes from. Unit; per steradian. 0 where either has no lobes.
+  // w: where the path from the camera goes on without scattering, -wo; the light's mixture is of
+  // the directions that light comes from. Unit; per steradian. 0 where either has no lobes.
   float pdf(const Vec3& w) const {
     Lanes sum{};
     for (int j = 0; j < count_; ++j) {
