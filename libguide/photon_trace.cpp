@@ -45,7 +45,8 @@ void trace_block(const PhotonTracer& tracer, const PhotonTraceOptions& options, 
 
 PhotonTraceSummary trace_photons(const Scene& scene, const PhotonTraceOptions& options,
                                  const PhotonSink& photons, const RunControl& control,
-                                 const EscapeSink& escapes, const GuideCacheView& importance) {
+                                 const EscapeSink& escapes, const GuideCacheView& importance,
+                                 const MediumPhotonSink& in_media) {
   options.validate();
   require(importance.cells.empty() || options.quantity == Quantity::radiance,
           "--importance guides photons: it does not go with --from camera");
@@ -71,6 +72,7 @@ PhotonTraceSummary trace_photons(const Scene& scene, const PhotonTraceOptions& o
     for (size_t b = 0; b < used; ++b) {
       photons(blocks[b].photons);
       if (escapes) escapes(blocks[b].escapes);
+      if (in_media) in_media(blocks[b].in_media);
       summary += blocks[b].counts;
     }
     control.progress(double(summary.emitted), double(options.count), "particles");

@@ -31,12 +31,15 @@ struct PhotonTraceSummary : PhotonCounts {
 // Called in order, from one thread, with what some particles left behind.
 using PhotonSink = std::function<void(std::span<const Photon>)>;
 using EscapeSink = std::function<void(std::span<const Escape>)>;
+using MediumPhotonSink = std::function<void(std::span<const MediumPhoton>)>;
 
 // escapes: may be empty; only importons escape, and only towards distant emitters. importance: a
-// cache of importance that guides photons, or an empty one.
+// cache of importance that guides photons, or an empty one. in_media: may be empty; importons leave
+// nothing in media.
 PhotonTraceSummary trace_photons(const Scene& scene, const PhotonTraceOptions& options,
                                  const PhotonSink& photons, const RunControl& control,
                                  const EscapeSink& escapes = {},
-                                 const GuideCacheView& importance = {});
+                                 const GuideCacheView& importance = {},
+                                 const MediumPhotonSink& in_media = {});
 
 }  // namespace waylight

@@ -69,10 +69,20 @@ FilmDescription film_of(const FilmDescription& scene_film, const RenderOptions& 
   return film;
 }
 
-void require_caches(const RenderCaches& caches, RenderMode mode) {
-  require(mode == RenderMode::bsdf || !caches.guide.cells.empty(),
-          "all modes but bsdf need --cache with at least one trained cell");
-  require(!needs_fits(mode) || caches.brdf, "--mode product and mixture need --brdf");
+void require_caches(const RenderCaches& caches, const RenderOptions& options) {
+  const GuideCacheView& guide = caches.guide;
+  require(!needs_cache(options) || !guide.cells.empty() || !guide.medium.cells.empty(),
+          "all modes but bsdf, and guided decisions in media, need --cache with at least one "
+          "trained cell");
+  require(!insists_on_media(options) || !guide.medium.cells.empty(),
+          "--distance guided and --direction mixture and product need a cache of media: train it "
+          "on photons of a scene that has some");
+  require(!needs_fits(options.mode) || caches.brdf, "--mode product and mixture need --brdf");
+}
+
+std::span<const Medium> guided_media(const Scene& scene, const RenderOptions& options) {
+  if (!guides_media(options)) return {};
+  return scene.description().media;
 }
 
 // Renders whole passes over the image until one of the stopping rules holds.
@@ -87,7 +97,8 @@ class Renderer {
         crop_(sensor_.film = film_of(sensor_.film, options)),
         camera_(sensor_),
         filter_(crop_),
-        guiding_(caches.brdf, caches.guide, scene.description().materials),
+        guiding_(caches.brdf, caches.guide, scene.description().materials,
+                 guided_media(scene, options)),
         camera_medium_(sensor_.medium != kNone ? sensor_.medium
                                                : scene.medium_at(camera_.origin())),
         tracer_(scene, guiding_, tracer_options(scene, options), camera_medium_),
@@ -247,7 +258,7 @@ RenderSummary summarize(const Renderer& renderer) {
 Image render(const Scene& scene, const RenderCaches& caches, const RenderOptions& options,
              RenderSummary* summary, const RunControl& control) {
   options.validate();
-  require_caches(caches, options.mode);
+  require_caches(caches, options);
   Renderer renderer(scene, caches, options, control);
   renderer.run();
   const RenderSummary result = summarize(renderer);

@@ -24,6 +24,12 @@ inline bool needs_fits(RenderMode mode) {
 // gained on two measured interiors; one half in ris.
 enum class ShareRule { automatic, fixed, learned };
 
+// The decisions in media [Herholz et al. 2019]: where along a ray a path scatters, and in what
+// direction. automatic: guided, directions by the product, in all modes but bsdf where the cache
+// holds media.
+enum class DistanceMode { automatic, standard, guided };
+enum class PhaseMode { automatic, standard, mixture, product };
+
 // automatic: guided where the mode has a cache, by throughput in mode bsdf.
 enum class RouletteMode { automatic, none, throughput, guided };
 
@@ -42,6 +48,8 @@ struct RenderOptions {
   int crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0;  // pixels; crop_width 0: scene's
   int max_depth = -2;  // path edges; -1 no limit, -2 the scene's
   int rr_depth = -1;   // path edges before Russian roulette; -1 the scene's
+  DistanceMode distance = DistanceMode::automatic;
+  PhaseMode direction = PhaseMode::automatic;
   RouletteMode roulette = RouletteMode::automatic;
   int split = 1;  // copies that guided roulette may make of a path at one vertex, 1 .. 20
   PixelEstimateMode pixel_estimate = PixelEstimateMode::cache;
@@ -54,8 +62,8 @@ struct RenderOptions {
   void validate() const;
 };
 
-// What guides. `guide` may be empty in mode bsdf, `brdf` is needed in modes product and mixture
-// only.
+// What guides. `guide` may be empty unless needs_cache(), `brdf` is needed in modes product and
+// mixture only.
 struct RenderCaches {
   const BrdfCache* brdf = nullptr;
   GuideCacheView guide;

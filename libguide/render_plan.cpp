@@ -23,7 +23,33 @@ DirectionGuide guide_of(RenderMode mode) {
   return DirectionGuide::none;
 }
 
+PhaseGuide phase_guide_of(const RenderOptions& options) {
+  if (options.direction == PhaseMode::mixture) return PhaseGuide::mixture;
+  if (options.direction == PhaseMode::product) return PhaseGuide::product;
+  const bool guided = options.direction == PhaseMode::automatic && options.mode != RenderMode::bsdf;
+  return guided ? PhaseGuide::product : PhaseGuide::none;
+}
+
+bool guides_distances(const RenderOptions& options) {
+  if (options.distance != DistanceMode::automatic) return options.distance == DistanceMode::guided;
+  return options.mode != RenderMode::bsdf;
+}
+
 }  // namespace
+
+bool guides_media(const RenderOptions& options) {
+  return guides_distances(options) || phase_guide_of(options) != PhaseGuide::none ||
+         roulette_of(options) == Roulette::guided;
+}
+
+bool insists_on_media(const RenderOptions& options) {
+  return options.distance == DistanceMode::guided || options.direction == PhaseMode::mixture ||
+         options.direction == PhaseMode::product;
+}
+
+bool needs_cache(const RenderOptions& options) {
+  return options.mode != RenderMode::bsdf || guides_media(options);
+}
 
 Roulette roulette_of(const RenderOptions& options) {
   switch (options.roulette) {
@@ -49,11 +75,9 @@ void RenderOptions::validate() const {
       "--size must be WIDTHxHEIGHT with both in [1, 65536]");
   require(max_depth >= -2 && max_depth != 0, "--max-depth must be at least 1, or -1 for no limit");
   require(rr_depth >= -1, "--rr-depth must not be negative");
-  require(roulette != RouletteMode::guided || mode != RenderMode::bsdf,
-          "--rr guided needs the cache of --mode illumination or product");
   require(split >= 1 && split <= kMaxSplit, "--split must be in [1, {}], not {}", kMaxSplit, split);
   require(split == 1 || roulette_of(*this) == Roulette::guided,
-          "--split needs guided roulette: --mode illumination or product, --rr guided or auto");
+          "--split needs guided roulette: --rr guided, or a mode other than bsdf");
   require(bsdf_share >= 0.01f && bsdf_share <= 1,
           "--bsdf-share must be learned or in [0.01, 1], not {}", bsdf_share);
   require(
@@ -79,6 +103,8 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
   result.directions.bsdf_share =
       options.share_rule == ShareRule::fixed ? options.bsdf_share : default_share(options.mode);
   result.directions.candidates = options.candidates;
+  result.phases.guide = phase_guide_of(options);
+  result.guided_flights = guides_distances(options);
   result.roulette = roulette_of(options);
   result.max_split = options.split;
   result.max_depth = options.max_depth == -2 ? defaults.max_depth : options.max_depth;

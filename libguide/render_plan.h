@@ -13,6 +13,12 @@ float default_share(RenderMode mode);
 // What `automatic` stands for.
 Roulette roulette_of(const RenderOptions& options);
 
+// Whether a decision in media is guided where the cache holds media, and whether that is asked for by
+// name; whether the render reads a cache at all.
+bool guides_media(const RenderOptions& options);
+bool insists_on_media(const RenderOptions& options);
+bool needs_cache(const RenderOptions& options);
+
 // Whether a pilot learns the share of each cell.
 bool learns_shares(const RenderOptions& options);
 

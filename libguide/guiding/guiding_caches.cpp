@@ -28,8 +28,11 @@ EntrySeries nearest_series(const MaterialFit& fit, float width) {
 }  // namespace
 
 GuidingCaches::GuidingCaches(const BrdfCache* brdf, const GuideCacheView& guide,
-                             std::span<const Material> materials)
-    : brdf_(brdf), guide_(guide), fit_of_material_(materials.size(), {-1, -1}) {
+                             std::span<const Material> materials, std::span<const Medium> media)
+    : brdf_(brdf),
+      guide_(guide),
+      media_(guide.medium, media),
+      fit_of_material_(materials.size(), {-1, -1}) {
   if (!brdf_) return;
   std::vector<int> front(materials.size(), -1);
   for (size_t i = 0; i < brdf_->materials.size(); ++i)

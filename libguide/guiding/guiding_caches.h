@@ -7,6 +7,7 @@
 
 #include "libguide/bsdf/textured_width.h"
 #include "libguide/cache/guide_cache_view.h"
+#include "libguide/guiding/medium_guides.h"
 #include "libguide/records/brdf_cache.h"
 
 namespace waylight {
@@ -19,12 +20,13 @@ struct FittedLobe {
 class GuidingCaches {
  public:
   GuidingCaches() = default;
-  // brdf may be null; all must outlive this.
+  // brdf may be null; all must outlive this. media: those that guide, none or all of the scene's.
   GuidingCaches(const BrdfCache* brdf, const GuideCacheView& guide,
-                std::span<const Material> materials);
+                std::span<const Material> materials, std::span<const Medium> media = {});
 
   bool guided() const { return !guide_.cells.empty(); }
   const GuideCacheView& guide() const { return guide_; }
+  const MediumGuides& media() const { return media_; }
   // What was fitted to f of the material for wo (shading frame, upper side), where its width is
   // textured for the nearest to the width at uv; empty when it has no fit. from_behind: the back of
   // a two-sided material is seen, which may have a fit of its own (material_behind).
@@ -43,6 +45,7 @@ class GuidingCaches {
  private:
   const BrdfCache* brdf_ = nullptr;
   GuideCacheView guide_;
+  MediumGuides media_;
   // By material, for its front and its back: index into brdf_->materials, or -1.
   std::vector<std::array<int, 2>> fit_of_material_;
   std::vector<std::optional<LobeWidth>> widths_;  // by brdf_->materials; where textured

@@ -1,15 +1,34 @@
 #pragma once
-// The directional decision of one vertex in a medium.
+// The directional decision of one vertex in a medium: phase function or guide.
 
+#include "libguide/directional/vmf_product.h"
 #include "libguide/guiding/direction_sampler.h"
+#include "libguide/guiding/medium_guides.h"
+#include "libguide/medium/phase.h"
 
 namespace waylight {
 
+// What is sampled beside the phase function: incident light, or its product with the phase
+// function's lobes [Herholz et al. 2019].
+enum class PhaseGuide { none, mixture, product };
+
+struct PhaseOptions {
+  PhaseGuide guide = PhaseGuide::none;
+  float phase_share = 0.25f;  // of sampling the phase function where there is a guide, in (0, 1]
+};
+
 // The counterpart of DirectionSampler: the same questions, so that the path loop need not know
-// where a vertex is. The albedo is not in it: the weight of the flight that ended here has it.
+// where a vertex is. The density is
+//   p(wi) = a f(wi) + (1 - a) p_guide(wi),
+// one-sample MIS with the share of the phase function raised where the cell's evidence is poor. The
+// albedo is not in it: the weight of the flight that ended here has it.
 class PhaseSampler {
  public:
-  PhaseSampler(const PhaseFunction& phase, const Vec3& wo) : phase_(phase), forward_(-wo) {}
+  // guide: null where there is none; lobes: of the phase function, where there is one.
+  PhaseSampler(const PhaseFunction& phase, const Vec3& wo, const MediumGuide* guide,
+               const PhaseLobes* lobes, const PhaseOptions& options);
+  PhaseSampler(const PhaseSampler&) = delete;
+  PhaseSampler& operator=(const PhaseSampler&) = delete;
 
   Color eval(const Vec3& wi) const { return evaluate(wi).value; }
   std::optional<DirectionSample> sample(Sampler& sampler) const;
@@ -17,13 +36,26 @@ class PhaseSampler {
   EvalPdf evaluate(const Vec3& wi) const;
 
   bool has_smooth() const { return true; }
-  bool guided() const { return false; }
-  float bsdf_share() const { return 1; }
-  float reflected_estimate() const { return 0; }
+  bool guided() const { return phase_share_ < 1; }
+  float bsdf_share() const { return phase_share_; }
+  // Luminance of the radiance scattered towards wo, of indirect light, before the albedo; 0 where
+  // the cell knows too little.
+  float reflected_estimate() const {
+    return guide_ && guide_->known() ? guide_->scattered_indirect(forward_) : 0;
+  }
 
  private:
+  void prepare(const PhaseLobes& lobes, const PhaseOptions& options);
+  float guide_pdf(const Vec3& wi) const {
+    return product_ ? product_->pdf(wi) : guide_->indirect().pdf(wi);
+  }
+
   const PhaseFunction& phase_;
-  Vec3 forward_;
+  Vec3 forward_;  // -wo
+  const MediumGuide* guide_;
+  float phase_share_ = 1;
+  VmfMixture about_forward_;
+  std::optional<VmfProduct> product_;
 };
 
 }  // namespace waylight

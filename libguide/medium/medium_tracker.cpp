@@ -9,13 +9,6 @@ Color exponential(const Color& sigma_t, float distance) {
   return (-sigma_t * std::min(distance, kFar)).exp();
 }
 
-// Probabilities of the channels, in proportion to the throughput that they would carry on.
-Color channel_probs(const Color& throughput) {
-  const float sum = throughput.sum();
-  if (!(sum > 0) || !std::isfinite(sum)) return Color::Constant(1.0f / 3);
-  return throughput / sum;
-}
-
 float choose_channel(const Color& probs, const Color& values, float u) {
   if (u < probs[0]) return values[0];
   return u < probs[0] + probs[1] ? values[1] : values[2];

@@ -23,6 +23,13 @@ struct Flight {
   MediumCoefficients here = {};  // where it collided
 };
 
+// Probabilities of the channels, in proportion to the throughput that they would carry on.
+inline Color channel_probs(const Color& throughput) {
+  const float sum = throughput.sum();
+  if (!(sum > 0) || !std::isfinite(sum)) return Color::Constant(1.0f / 3);
+  return throughput / sum;
+}
+
 class MediumTracker {
  public:
   explicit MediumTracker(const Medium& medium);

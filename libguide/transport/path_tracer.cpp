@@ -127,11 +127,22 @@ PathVertex PathTracer::next_vertex(Walk& walk, State& state) const {
 // One flight through the medium of the ray; empty when it passes.
 std::optional<MediumPoint> PathTracer::fly(State& state, float t_max, float crossed) const {
   const MediumTracker& medium = scene_.medium(state.medium);
-  const Flight flight = medium.fly(state.ray, t_max, state.throughput, state.sampler);
-  state.weigh(flight.weight);
-  if (!flight.scattered) return std::nullopt;
-  state.weigh(flight.here.albedo);
-  return medium_point(medium, state.ray, flight, crossed);
+  const Flight end = flight(state, medium, t_max);
+  state.throughput *= end.weight;
+  if (!end.scattered) return std::nullopt;
+  state.weigh(end.here.albedo);
+  return medium_point(medium, state.medium, state.ray, end, crossed);
+}
+
+// Light straight from emitters counts at the end of a flight where no next-event estimation at its
+// start has sampled it.
+Flight PathTracer::flight(State& state, const MediumTracker& medium, float t_max) const {
+  if (!options_.guided_flights || caches_.media().empty())
+    return medium.fly(state.ray, t_max, state.throughput, state.sampler);
+  const Color channels = channel_probs(state.throughput);
+  const FlightSpace space{medium, caches_.media(), state.medium,  state.ray,
+                          t_max,  channels,        state.specular};
+  return GuidedFlight(space, options_.flights).sample(state.sampler);
 }
 
 bool PathTracer::too_deep(const State& state) const {
@@ -152,7 +163,11 @@ bool PathTracer::visit(Walk& walk, State& state, const SurfacePoint& at) const {
 
 bool PathTracer::visit(Walk& walk, State& state, const MediumPoint& at) const {
   if (too_deep(state) || is_black(state.throughput)) return false;
-  const PhaseSampler directions(at.medium->phase(), -state.ray.direction);
+  const MediumGuides& guides = caches_.media();
+  const PhaseSampler directions(at.medium->phase(), -state.ray.direction,
+                                guides.empty() ? nullptr : &guides.at(at.index, at.p),
+                                guides.empty() ? nullptr : &guides.phase(at.index),
+                                options_.phases);
   if (state.edges == 1) {
     walk.record.albedo = at.albedo;
     walk.record.depth = at.t;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "libguide/base/sampler.h"
+#include "libguide/guiding/guided_flight.h"
 #include "libguide/guiding/phase_sampler.h"
 #include "libguide/scene/scene.h"
 #include "libguide/transport/path_vertex.h"
@@ -25,6 +26,9 @@ inline constexpr int kMaxSplit = 20, kMaxWaiting = 32, kMaxCopies = 64;
 
 struct PathTracerOptions {
   DirectionOptions directions;
+  PhaseOptions phases;
+  bool guided_flights = false;
+  FlightOptions flights;
   Roulette roulette = Roulette::throughput;
   int max_split = 1;           // copies at one vertex under guided roulette, 1 .. kMaxSplit
   int max_depth = -1;          // path edges; -1 no limit
@@ -78,6 +82,7 @@ class PathTracer {
   bool advance(Walk& walk, State& state) const;
   PathVertex next_vertex(Walk& walk, State& state) const;
   std::optional<MediumPoint> fly(State& state, float t_max, float crossed) const;
+  Flight flight(State& state, const MediumTracker& medium, float t_max) const;
   bool visit(Walk& walk, State& state, const SurfacePoint& at) const;
   bool visit(Walk& walk, State& state, const MediumPoint& at) const;
   bool too_deep(const State& state) const;

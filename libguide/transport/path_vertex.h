@@ -13,6 +13,7 @@ inline constexpr int kMaxCrossings = 1000;
 struct MediumPoint : RayOrigin {
   float t = 0;  // distance from the vertex before
   const MediumTracker* medium = nullptr;
+  int index = kNone;  // of the medium
   Color albedo = Color::Zero();
 };
 
@@ -28,12 +29,13 @@ inline int medium_after(const MediumPoint& /*at*/, const Vec3& /*wi*/, int curre
 }
 
 // Where a flight along `ray` scattered. crossed: length of the edge before the ray's origin.
-inline MediumPoint medium_point(const MediumTracker& medium, const Ray& ray, const Flight& flight,
-                                float crossed) {
+inline MediumPoint medium_point(const MediumTracker& medium, int index, const Ray& ray,
+                                const Flight& flight, float crossed) {
   MediumPoint at;
   at.p = ray(flight.t);
   at.t = crossed + flight.t;
   at.medium = &medium;
+  at.index = index;
   at.albedo = flight.here.albedo;
   return at;
 }

@@ -90,7 +90,7 @@ bool PhotonTracer::visit(Particle& particle, const MediumPoint& at, PhotonRecord
     ++records->counts.too_deep;
     return false;
   }
-  const PhaseSampler directions(at.medium->phase(), -particle.ray.direction);
+  const PhaseSampler directions(at.medium->phase(), -particle.ray.direction, nullptr, nullptr, {});
   const std::optional<DirectionSample> s = directions.sample(sampler);
   if (s) {
     particle.ray = {at.p, s->wi};
@@ -152,7 +152,7 @@ std::optional<MediumPoint> PhotonTracer::fly(Particle& particle, float t_max,
                     0.5f * flight.t * particle.power, records);
   particle.power *= flight.weight;
   if (!flight.scattered) return std::nullopt;
-  const MediumPoint at = medium_point(medium, particle.ray, flight, 0);
+  const MediumPoint at = medium_point(medium, particle.medium, particle.ray, flight, 0);
   const Color mean_free_path =
       (flight.here.sigma_t > 0).select(1 / flight.here.sigma_t, Color(0, 0, 0));
   store_in_medium(particle, at.p, 0.5f * particle.power * mean_free_path, records);
@@ -179,6 +179,7 @@ void PhotonTracer::store(const Particle& particle, const SurfacePoint& at,
 
 void PhotonTracer::store_in_medium(const Particle& particle, const Vec3& position,
                                    const Color& weight, PhotonRecords* records) const {
+  if (camera_ || is_black(weight)) return;
   if (!is_finite(weight) || !position.allFinite()) {
     ++records->counts.invalid;
     return;

@@ -32,6 +32,7 @@ void report(const ToolRun& run, const Provenance& provenance, Quantity quantity,
                 {"emitted", s.emitted},
                 {"stored", s.stored},
                 {"escapes", s.escapes},
+                {"in_media", s.in_media},
                 {"absorbed", s.absorbed},
                 {"left_scene", s.left_scene},
                 {"too_deep", s.too_deep},
@@ -69,13 +70,15 @@ void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArg
   Provenance provenance =
       provenance_of(run, tool, options.seed, arguments.scene, scene.description().hash);
   if (importance) provenance.parents.push_back(parent_of(arguments.importance));
+  const bool media = scene.has_media() && options.quantity == Quantity::radiance;
   PhotonWriter writer(
       arguments.output,
-      {provenance, {scene.bounds(), options.count, options.pass, options.quantity}});
+      {provenance, {scene.bounds(), options.count, options.pass, options.quantity, media}});
   const PhotonTraceSummary summary = trace_photons(
       scene, options, [&](std::span<const Photon> photons) { writer.write(photons); }, run.control,
       [&](std::span<const Escape> escapes) { writer.write(escapes); },
-      importance ? importance->view() : GuideCacheView());
+      importance ? importance->view() : GuideCacheView(),
+      [&](std::span<const MediumPhoton> photons) { writer.write(photons); });
   run.stop_if_interrupted();
   writer.finish(summary);
   report(run, provenance, options.quantity, summary);

@@ -37,6 +37,7 @@ void declare(CLI::App& app, RenderArguments& arguments) {
   as_output(app.add_option("--png", arguments.png, "The image as sRGB picture too (.png)"),
             {".png"});
   add_mode(app, options.mode);
+  add_media(app, options);
   add_roulette(app, options);
   as_input(app.add_option("--cache", arguments.cache, "Illumination cache"));
   as_input(app.add_option("--brdf", arguments.brdf, "Fitted BSDFs"));

@@ -12,6 +12,9 @@ constexpr int kDefaultSpp = 64;
 
 // In the order of RenderMode.
 const std::vector<std::string> kModes = {"bsdf", "illumination", "mixture", "product", "ris"};
+// In the order of DistanceMode and PhaseMode.
+const std::vector<std::string> kDistances = {"auto", "standard", "guided"};
+const std::vector<std::string> kPhases = {"auto", "standard", "mixture", "product"};
 // In the order of RouletteMode.
 const std::vector<std::string> kRoulettes = {"auto", "none", "throughput", "guided"};
 
@@ -90,6 +93,18 @@ void add_roulette(CLI::App& app, RenderOptions& options) {
                  "Path edges before Russian roulette; -1: the scene's");
 }
 
+void add_media(CLI::App& app, RenderOptions& options) {
+  add_choice(
+      app, "--distance", kDistances,
+      [&options](size_t i) { options.distance = static_cast<DistanceMode>(i); },
+      "In media, where along a ray to scatter; auto: guided in all modes but bsdf");
+  add_choice(
+      app, "--direction", kPhases,
+      [&options](size_t i) { options.direction = static_cast<PhaseMode>(i); },
+      "In media, what directions are sampled from: phase function, its mixture or product with "
+      "incident light; auto: product in all modes but bsdf");
+}
+
 void add_stopping(CLI::App& app, RenderOptions& options) {
   app.add_option("--spp", options.spp, "Samples per pixel")
       ->check(CLI::Range(1, 1 << 24))
@@ -136,6 +151,10 @@ const char* mode_name(RenderMode mode) { return kModes[static_cast<size_t>(mode)
 
 std::string method_name(const RenderOptions& options) {
   std::string name = mode_name(options.mode);
+  if (options.distance != DistanceMode::automatic)
+    name += ", distance " + kDistances[static_cast<size_t>(options.distance)];
+  if (options.direction != PhaseMode::automatic)
+    name += ", direction " + kPhases[static_cast<size_t>(options.direction)];
   if (options.roulette != RouletteMode::automatic)
     name += ", roulette " + kRoulettes[static_cast<size_t>(options.roulette)];
   return options.split > 1 ? name + ", split" : name;

@@ -10,6 +10,7 @@
 #include "formats/cache_file.h"
 #include "formats/image_io.h"
 #include "libguide/base/error.h"
+#include "libguide/render_plan.h"
 #include "tools/common/provenance_of.h"
 #include "tools/render/render_arguments.h"
 #include "tools/render/segment_table.h"
@@ -22,8 +23,8 @@ struct LoadedCaches {
   LoadedCaches(const RenderArguments& arguments, const SceneDescription& scene) {
     const RenderMode mode = arguments.options.mode;
     const std::string scene_name = file_name(arguments.scene.path);
-    if (mode == RenderMode::bsdf) return;
-    require(!arguments.cache.empty(), "--mode {} needs --cache", mode_name(mode));
+    if (!needs_cache(arguments.options)) return;
+    require(!arguments.cache.empty(), "{} needs --cache", method_name(arguments.options));
     guide.emplace(arguments.cache);
     require_same_scene(arguments.cache, guide->provenance(), scene_name, scene.hash,
                        SceneParts::all);
@@ -32,7 +33,7 @@ struct LoadedCaches {
           "\"{}\": is an importance cache, which guides photons (photon-trace --importance); "
           "render needs one trained on photons",
           arguments.cache);
-    if (guide->view().cells.empty())
+    if (guide->view().cells.empty() && guide->view().medium.cells.empty())
       fail("\"{}\": has no cells; train it on photons of the scene", arguments.cache);
     parents.push_back(parent_of(arguments.cache));
     if (!needs_fits(mode)) return;

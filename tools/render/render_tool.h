@@ -16,6 +16,7 @@ struct RenderArguments {
 
 void add_mode(CLI::App& app, RenderMode& mode);  // --mode
 // --rr, --split, --pixel-estimate, --max-depth, --rr-depth
+void add_media(CLI::App& app, RenderOptions& options);
 void add_roulette(CLI::App& app, RenderOptions& options);
 void add_stopping(CLI::App& app, RenderOptions& options);     // --spp, --time, --error
 void add_sharing(CLI::App& app, RenderArguments& arguments);  // --bsdf-share, --candidates

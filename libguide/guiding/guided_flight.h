@@ -1,0 +1,52 @@
+#pragma once
+// Guided product distance sampling: whether and where a flight through a medium scatters
+// [Herholz et al. 2019].
+
+#include "libguide/guiding/medium_guides.h"
+#include "libguide/medium/medium_tracker.h"
+
+namespace waylight {
+
+struct FlightOptions {
+  float standard_share = 0.25f;  // of flights that ignore the guide, in (0, 1]
+};
+
+// What a flight is through. with_direct: whether light straight from emitters counts at the end of
+// the ray; it does not where next-event estimation at the ray's origin samples it.
+struct FlightSpace {
+  const MediumTracker& medium;
+  const MediumGuides& guides;
+  int index;  // of the medium
+  Ray ray;
+  float t_max;
+  Color channels;  // probabilities of the colour channels, which sum to 1
+  bool with_direct;
+};
+
+// The density over distance of one flight, worked off bin by bin until the event. Bins are what the
+// ray has in one block of extinction and one cell of the cache. In a bin of extinction s and length
+// d the guided process scatters with probability
+//   P = (1 - e^(-s d)) albedo Li / L,
+// Li the radiance scattered towards the camera and L the radiance that comes along the ray, both at
+// the start of the bin; the standard process with 1 - e^(-s d). Within a bin, both place the event
+// by the truncated exponential. One process is chosen per flight, and one channel, whose extinction
+// it goes by; the density is the sum over them all. So the weight of a flight is at most
+// 1 / standard_share times that of the standard process alone, whatever the cache says.
+// In media that vary, s is the mean of the block: the density is still exact, and the transmittance
+// in the weight an unbiased estimate.
+class GuidedFlight {
+ public:
+  GuidedFlight(const FlightSpace& space, const FlightOptions& options)
+      : space_(space), options_(options) {}
+
+  Flight sample(Sampler& sampler) const;
+  // For tests: per unit length, and the probability to pass.
+  float pdf(float t) const;
+  float pass_prob() const;
+
+ private:
+  const FlightSpace& space_;
+  FlightOptions options_;
+};
+
+}  // namespace waylight

@@ -1,0 +1,37 @@
+#include "libguide/guiding/medium_guides.h"
+
+#include "libguide/cache/guide_cache_view.h"
+#include "libguide/medium/phase.h"
+
+namespace waylight {
+
+MediumGuide::MediumGuide(const MediumCacheView& cache, const MediumCell& cell,
+                         const PhaseLobes& phase)
+    : indirect_(cache.lobes(cell.indirect)),
+      direct_(cache.lobes(cell.direct)),
+      scattered_indirect_(indirect_, phase),
+      scattered_direct_(direct_, phase),
+      indirect_fluence_(cell.indirect.fluence),
+      direct_fluence_(direct_.count() > 0 ? cell.direct.fluence : 0),
+      known_(indirect_.count() > 0 && cell.indirect.fluence > 0 &&
+             cell.indirect.effective_samples >= kMinEffectiveSamples),
+      trust_(cell.indirect.effective_samples /
+             (cell.indirect.effective_samples + kHalfTrustSamples)) {}
+
+MediumGuides::MediumGuides(const MediumCacheView& cache, std::span<const Medium> media)
+    : nodes_(cache.nodes), cells_(cache.cells.size()) {
+  std::vector<float> cosines;
+  for (const Medium& medium : media) {
+    const float g = mean_cosine(medium.phase);
+    const auto known = std::find(cosines.begin(), cosines.end(), g);
+    phase_of_medium_.push_back(static_cast<int>(known - cosines.begin()));
+    if (known != cosines.end()) continue;
+    cosines.push_back(g);
+    phases_.push_back(phase_lobes(g));
+  }
+  guides_.reserve(cells_ * phases_.size());
+  for (const PhaseLobes& phase : phases_)
+    for (const MediumCell& cell : cache.cells) guides_.emplace_back(cache, cell, phase);
+}
+
+}  // namespace waylight
