@@ -6,6 +6,7 @@
 
 #include "libguide/base/run_control.h"
 #include "libguide/directional/expectation_maximization.h"
+#include "libguide/directional/vmf_em.h"
 #include "libguide/records/guide_cache.h"
 #include "libguide/records/photon.h"
 
@@ -14,18 +15,34 @@ namespace waylight {
 // Photons straight from an emitter, which next-event estimation samples well, and importons
 // straight from the camera, which photons cannot hit. Dropped, such photons still count in the
 // irradiance; such importons count in nothing, so that the cache has what photons bring to the
-// image by way of a further surface.
+// image by way of a further surface. Media keep direct light apart in any case.
 enum class DirectLight { keep, drop };
 
 struct CacheTrainOptions {
-  int components = 8;          // K, 1..8
-  int photons_per_cell = 300;  // a cell that saw more is split, 64..10^7
-  int max_cells = 200'000;     // 1..10^7
+  int components = 8;                  // K, 1..8
+  int photons_per_cell = 300;          // a cell that saw more is split, 64..10^7
+  int medium_photons_per_cell = 2000;  // the same of cells of media
+  int max_cells = 200'000;             // 1..10^7, of surfaces and of media each
   float normal_spread = 0.9f;  // cells whose mean normal is shorter are split by orientation
   DirectLight direct = DirectLight::drop;
   MixturePrior prior;
+  VmfPrior medium_prior;
 
   void validate() const;
+};
+
+struct MediumLightSummary {
+  size_t cells_with_mixture = 0;
+  double mean_components = 0, mean_effective_samples = 0;
+
+  void add(const MediumLight& light);
+};
+
+struct MediumTrainSummary {
+  uint64_t photons = 0, rejected = 0, weights_capped = 0;
+  size_t cells = 0;
+  MediumLightSummary indirect, direct;
+  size_t bytes = 0;
 };
 
 struct CacheTrainSummary {
@@ -35,6 +52,7 @@ struct CacheTrainSummary {
   double mean_components = 0, mean_effective_samples = 0, lost_mass = 0;
   size_t bytes = 0;  // memory of all cells at the end; it never depends on the number of photons
   double seconds = 0;
+  MediumTrainSummary media;  // all zero where there are none
 };
 
 // consume() any number of batches, then finish(). The result depends on the order of the photons
@@ -47,6 +65,7 @@ class CacheTrainer {
   ~CacheTrainer();
 
   void consume(std::span<const Photon> photons);
+  void consume(std::span<const MediumPhoton> photons);
   void consume(std::span<const Escape> escapes);
   GuideCache finish(CacheTrainSummary* summary);
 

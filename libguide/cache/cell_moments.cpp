@@ -5,9 +5,6 @@
 namespace waylight {
 namespace {
 
-// Integers up to it are exact in float; beyond, the moments become a window over the last photons.
-constexpr float kMaxCount = 0x1p24f;
-
 void forget_half(CellTraining& cell) {
   cell.count *= 0.5f;
   cell.position_m2 *= 0.5f;
@@ -15,26 +12,20 @@ void forget_half(CellTraining& cell) {
   cell.normal_m2 *= 0.5f;
 }
 
-Vec3 products(const Vec3& v) { return {v.x() * v.y(), v.x() * v.z(), v.y() * v.z()}; }
-
 }  // namespace
 
-// M2 = M2_a + M2_b + delta^2 n_a n_b / n with delta the difference of the means; likewise products.
 void MomentBatch::merge_into(CellTraining& cell) const {
   if (count_ == 0) return;
   const float n = cell.count + count_, mix = cell.count / n;
-  const Vec3 dp = position_ / count_, dn = normal_ / count_;
-  const float between = count_ * mix - count_;  // batch sums are about the shift, not their mean
-  cell.position_m2 += position2_ + between * dp.cwiseProduct(dp);
-  cell.position_cross += cross_ + between * products(dp);
+  const Vec3 dn = normal_ / count_;
+  const float between = count_ * mix - count_;
+  positions_.merge_into(cell, count_, between, count_ / n);
   cell.normal_m2 += normal2_ + between * dn.cwiseProduct(dn);
-  cell.position_m2 = cell.position_m2.cwiseMax(0);
   cell.normal_m2 = cell.normal_m2.cwiseMax(0);
-  cell.position_mean = position_shift_ + dp * (count_ / n);
   cell.normal_mean = normal_shift_ + dn * (count_ / n);
   cell.count = n;
   cell.flux += flux_;
-  if (cell.count > kMaxCount) forget_half(cell);
+  if (cell.count > kMaxMomentCount) forget_half(cell);
 }
 
 // The determinant of the covariance C projected on the plane of n is n^T adj(C) n.

@@ -1,25 +1,22 @@
 #pragma once
-// Running first and second moments of the photons of a cell, kept in its CellTraining.
+// Running moments of the photons of a cell of surfaces, kept in its CellTraining.
 
+#include "libguide/cache/position_moments.h"
 #include "libguide/records/guide_cache.h"
 #include "libguide/records/photon.h"
 
 namespace waylight {
 
-// Sums over one batch, taken about the running means so that a cell far from the origin loses no
-// digits, then merged by the pairwise update of Chan, Golub and LeVeque [1983].
+// Sums over one batch; see PositionSums.
 class MomentBatch {
  public:
   MomentBatch(const CellTraining& cell, const Photon& first)
-      : position_shift_(cell.count > 0 ? cell.position_mean : first.position),
+      : positions_(cell.count > 0 ? cell.position_mean : first.position),
         normal_shift_(cell.count > 0 ? cell.normal_mean : first.normal) {}
 
   void add(const Photon& photon, float weight) {
-    const Vec3 p = photon.position - position_shift_;
+    positions_.add(photon.position);
     const Vec3 n = photon.normal - normal_shift_;
-    position_ += p;
-    position2_ += p.cwiseProduct(p);
-    cross_ += Vec3(p.x() * p.y(), p.x() * p.z(), p.y() * p.z());
     normal_ += n;
     normal2_ += n.cwiseProduct(n);
     flux_ += weight;
@@ -28,9 +25,8 @@ class MomentBatch {
   void merge_into(CellTraining& cell) const;
 
  private:
-  Vec3 position_shift_, normal_shift_;
-  Vec3 position_ = Vec3::Zero(), position2_ = Vec3::Zero(), cross_ = Vec3::Zero();
-  Vec3 normal_ = Vec3::Zero(), normal2_ = Vec3::Zero();
+  PositionSums positions_;
+  Vec3 normal_shift_, normal_ = Vec3::Zero(), normal2_ = Vec3::Zero();
   double flux_ = 0;
   float count_ = 0;
 };

@@ -23,7 +23,12 @@ std::optional<CellSplit> choose_split(const CellTraining& cell, float normal_spr
                                     kMinNormalDeviation, kNormalAxis);
     if (split) return split;
   }
-  return split_widest(cell.position_mean, cell.position_m2 / cell.count, min_extent, 0);
+  return choose_position_split(cell.position_mean, cell.position_m2 / cell.count, min_extent);
+}
+
+std::optional<CellSplit> choose_position_split(const Vec3& mean, const Vec3& variance,
+                                               float min_extent) {
+  return split_widest(mean, variance, min_extent, 0);
 }
 
 }  // namespace waylight

@@ -20,4 +20,8 @@ struct CellSplit {
 std::optional<CellSplit> choose_split(const CellTraining& cell, float normal_spread,
                                       float min_extent);
 
+// The position coordinate of largest variance alone.
+std::optional<CellSplit> choose_position_split(const Vec3& mean, const Vec3& variance,
+                                               float min_extent);
+
 }  // namespace waylight

@@ -1,11 +1,8 @@
 #pragma once
 // One cell of an illumination cache while it is trained.
 
-#include <array>
-#include <optional>
-#include <span>
-
 #include "libguide/cache/cell_split.h"
+#include "libguide/cache/online_mixture.h"
 #include "libguide/directional/expectation_maximization.h"
 #include "libguide/records/guide_cache.h"
 #include "libguide/records/photon.h"
@@ -19,17 +16,34 @@ struct CellTrainingOptions {
   MixturePrior prior;
 };
 
-// Photons that one stepwise-EM update takes. Fewer make the step noisy, more make a cell large.
-inline constexpr int kBatchSize = 64;
+// Gaussians over the disk of a cell's mean normal.
+struct GaussianLobes {
+  using Component = GaussianComponent;
+  using Statistics = ComponentStatistics;
+  using Point = WeightedPoint;
+  using Options = CellTrainingOptions;
+  using Record = CacheCell;
+  using Training = CellTraining;
+
+  static std::vector<GaussianComponent> fit(std::span<const WeightedPoint> batch, int count,
+                                            const MixturePrior& prior);
+  static StepwiseResult update(std::span<GaussianComponent> components,
+                               std::span<ComponentStatistics> statistics, float& step,
+                               std::span<const WeightedPoint> batch, float samples,
+                               const MixturePrior& prior);
+  static size_t grow(std::span<GaussianComponent> components,
+                     std::span<ComponentStatistics> statistics, size_t count, size_t wanted);
+};
 
 // About 1.7 KiB; the memory of the training is this per cell and nothing per photon.
-class TrainingCell {
+class TrainingCell : private OnlineMixture<GaussianLobes> {
  public:
   TrainingCell() = default;
   // A cell of a finished training that goes on.
   TrainingCell(const CacheCell& cell, const CellTraining& training,
                std::span<const GaussianComponent> components,
-               std::span<const ComponentStatistics> statistics);
+               std::span<const ComponentStatistics> statistics)
+      : OnlineMixture(cell, training, components, statistics) {}
 
   // The photons of this cell in one block: block[indices[i]] in that order. Returns how many
   // weighed too much.
@@ -54,49 +68,23 @@ class TrainingCell {
   // Photons on less than min_area count as spread over it.
   float irradiance(double now, double min_area) const;
 
-  // Sets when the cell was made, in photons of the whole training.
+  const Vec3& centre() const { return training_.position_mean; }
+  // When the cell was made, in photons of the whole training.
+  double born() const { return training_.born; }
   void restate_birth(double born) { training_.born = born; }
 
-  const CacheCell& cell() const { return cell_; }
-  const CellTraining& training() const { return training_; }
-  std::span<const GaussianComponent> components() const {
-    return {components_.data(), cell_.component_count};
-  }
-  std::span<const ComponentStatistics> statistics() const {
-    return {statistics_.data(), cell_.component_count};
-  }
+  const CacheCell& cell() const { return record_; }
+  using OnlineMixture::components;
+  using OnlineMixture::statistics;
+  using OnlineMixture::training;
 
  private:
-  struct Pending {
-    Vec3 direction;  // of the world: the frame of the cell may turn before the batch is full
-    float weight = 0;
-  };
-  using Batch = std::array<WeightedPoint, kBatchSize>;
-
   bool guides(const Photon& photon, const CellTrainingOptions& options) const;
   size_t update(const CellTrainingOptions& options);
-  float weight_cap(std::span<const WeightedPoint> batch) const;
   bool on_other_side() const;
-  void forget_mixture();
   void turn_to_photons();
   void inherit_irradiance(CellTraining& child, double now, double min_area) const;
-  void weigh_evidence();
-  void carry_evidence_over(double sum, size_t photons);
   std::span<WeightedPoint> batch_on_disk(Batch& batch) const;
-  void begin(std::span<const WeightedPoint> batch, float effective_samples,
-             const CellTrainingOptions& options);
-  void step(std::span<const WeightedPoint> batch, float effective_samples,
-            const CellTrainingOptions& options);
-  void set_mixture(std::span<const GaussianComponent> components,
-                   std::span<const ComponentStatistics> statistics);
-
-  CacheCell cell_;
-  CellTraining training_;
-  std::array<GaussianComponent, GaussianMixture::kMaxComponents> components_;
-  std::array<ComponentStatistics, GaussianMixture::kMaxComponents> statistics_;
-  std::array<Pending, kBatchSize> pending_;
-  int pending_count_ = 0;
-  bool carried_over_ = false;  // the evidence is in weights of an earlier stream
 };
 
 }  // namespace waylight

@@ -21,7 +21,7 @@ CacheFile read_previous(const CacheTrainArguments& arguments, const PhotonHeader
     fail("\"{}\": holds {}, and \"{}\" {}: train each in a cache of its own", arguments.previous,
          quantity_name(previous.cache.quantity), arguments.photons,
          quantity_name(header.stream.quantity));
-  if (previous.cache.training.empty())
+  if (previous.cache.training.empty() && previous.cache.medium.training.empty())
     fail("\"{}\": is a reduced cache, which cannot be trained further; give the file it came from",
          arguments.previous);
   return previous;
@@ -30,11 +30,13 @@ CacheFile read_previous(const CacheTrainArguments& arguments, const PhotonHeader
 void consume_all(PhotonReader& reader, CacheTrainer& trainer, const ToolRun& run) {
   std::vector<Photon> photons;
   std::vector<Escape> escapes;
-  for (double done = 0; reader.read(&photons, &escapes);) {
+  std::vector<MediumPhoton> in_media;
+  for (double done = 0; reader.read(&photons, &escapes, &in_media);) {
     run.stop_if_interrupted();
     trainer.consume(photons);
     trainer.consume(escapes);
-    done += static_cast<double>(photons.size());
+    trainer.consume(in_media);
+    done += static_cast<double>(photons.size() + in_media.size());
     run.control.progress(done, 0, "photons");
   }
 }
@@ -51,21 +53,24 @@ Provenance provenance(const ToolRun& run, const ToolInfo& tool,
   return result;
 }
 
-void report(const ToolRun& run, const Provenance& provenance, Quantity quantity,
-            const CacheTrainSummary& s) {
-  const double photons = static_cast<double>(s.photons);
-  const char* particles = quantity == Quantity::radiance ? "photons" : "importons";
-  run.print(fmt::format("{} {} in {:.1f} s ({}/s)", format_count(photons), particles, s.seconds,
-                        format_count(photons / std::max(s.seconds, 1e-9))));
-  run.print(
-      fmt::format("{} cells, {} with a mixture of {:.1f} components and {:.0f} effective samples",
-                  s.cells, s.cells_with_mixture, s.mean_components, s.mean_effective_samples));
-  run.print(fmt::format(
-      "{:.2f} % of the mixtures' mass lies outside the sphere; {} in training, peak {}",
-      100 * s.lost_mass, format_bytes(double(s.bytes)), format_bytes(double(peak_memory_bytes()))));
-  if (s.rejected > 0)
-    run.control.warn(fmt::format("{} photons made no sense and were left out", s.rejected));
-  if (s.cells_with_mixture == 0) run.control.warn("no cell saw enough photons for a mixture");
+nlohmann::ordered_json stats_of(const MediumLightSummary& s) {
+  return {{"cells_with_mixture", s.cells_with_mixture},
+          {"mean_components", s.mean_components},
+          {"mean_effective_samples", s.mean_effective_samples}};
+}
+
+nlohmann::ordered_json stats_of(const MediumTrainSummary& s) {
+  return {{"photons", s.photons},
+          {"rejected", s.rejected},
+          {"weights_capped", s.weights_capped},
+          {"cells", s.cells},
+          {"indirect", stats_of(s.indirect)},
+          {"direct", stats_of(s.direct)},
+          {"training_bytes", s.bytes}};
+}
+
+nlohmann::ordered_json stats_of(const Provenance& provenance, Quantity quantity,
+                                const CacheTrainSummary& s) {
   nlohmann::ordered_json stats = stats_of(provenance);
   stats.update({{"seconds", s.seconds},
                 {"quantity", quantity_name(quantity)},
@@ -82,7 +87,39 @@ void report(const ToolRun& run, const Provenance& provenance, Quantity quantity,
                 {"lost_mass", s.lost_mass},
                 {"training_bytes", s.bytes},
                 {"peak_memory_bytes", peak_memory_bytes()}});
-  run.write_stats(stats);
+  if (s.media.cells > 0) stats["media"] = stats_of(s.media);
+  return stats;
+}
+
+void report_media(const ToolRun& run, const MediumTrainSummary& s) {
+  run.print(
+      fmt::format("media: {} photons, {} cells, lobes of indirect light {:.1f}, of direct {:.1f}",
+                  format_count(double(s.photons)), s.cells, s.indirect.mean_components,
+                  s.direct.mean_components));
+  run.print(fmt::format("media: {:.0f} effective samples of indirect light, {:.0f} of direct; {}",
+                        s.indirect.mean_effective_samples, s.direct.mean_effective_samples,
+                        format_bytes(double(s.bytes))));
+}
+
+void report(const ToolRun& run, Quantity quantity, const CacheTrainSummary& s) {
+  const double photons = static_cast<double>(s.photons + s.media.photons);
+  const char* particles = quantity == Quantity::radiance ? "photons" : "importons";
+  run.print(fmt::format("{} {} in {:.1f} s ({}/s)", format_count(photons), particles, s.seconds,
+                        format_count(photons / std::max(s.seconds, 1e-9))));
+  run.print(
+      fmt::format("{} cells, {} with a mixture of {:.1f} components and {:.0f} effective samples",
+                  s.cells, s.cells_with_mixture, s.mean_components, s.mean_effective_samples));
+  run.print(fmt::format(
+      "{:.2f} % of the mixtures' mass lies outside the sphere; {} in training, peak {}",
+      100 * s.lost_mass, format_bytes(double(s.bytes)), format_bytes(double(peak_memory_bytes()))));
+  if (s.media.cells > 0) report_media(run, s.media);
+  const uint64_t rejected = s.rejected + s.media.rejected;
+  if (rejected > 0)
+    run.control.warn(fmt::format("{} photons made no sense and were left out", rejected));
+  if (s.cells_with_mixture + s.media.indirect.cells_with_mixture +
+          s.media.direct.cells_with_mixture ==
+      0)
+    run.control.warn("no cell saw enough photons for a mixture");
 }
 
 }  // namespace
@@ -100,7 +137,8 @@ void cache_train(const ToolRun& run, const ToolInfo& tool, const CacheTrainArgum
   file.provenance = provenance(run, tool, arguments, reader);
   run.stop_if_interrupted();
   write_cache(arguments.output, file);
-  report(run, file.provenance, file.cache.quantity, summary);
+  report(run, file.cache.quantity, summary);
+  run.write_stats(stats_of(file.provenance, file.cache.quantity, summary));
 }
 
 }  // namespace waylight

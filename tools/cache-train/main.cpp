@@ -13,7 +13,8 @@ constexpr ToolInfo kTool = {
     "--photons FILE|- [--in PREVIOUS.cache] -o scene.cache",
     R"(A tree splits space, and surfaces that face different ways; each of its cells learns a Gaussian
 mixture over the directions that light comes from, by stepwise EM, in one pass over the photons.
-Memory grows with the cells and never with the photons.
+Memory grows with the cells and never with the photons. In media a tree splits space alone; its cells
+learn the fluence and von Mises-Fisher lobes of direct and of indirect light.
 
 With --in, training goes on from a cache that was not reduced: photons of another pass refine it.
 
@@ -32,7 +33,11 @@ void declare(CLI::App& app, CacheTrainArguments& arguments) {
       ->check(CLI::Range(1, 8));
   app.add_option("--photons-per-cell", options.photons_per_cell, "A cell that saw more is split")
       ->check(CLI::Range(64, 10000000));
-  app.add_option("--max-cells", options.max_cells, "Bound of the cells, and so of memory")
+  app.add_option("--medium-photons-per-cell", options.medium_photons_per_cell,
+                 "The same of a cell of a medium")
+      ->check(CLI::Range(64, 10000000));
+  app.add_option("--max-cells", options.max_cells,
+                 "Bound of the cells of surfaces and of those of media, and so of memory")
       ->check(CLI::Range(1, 10000000));
   app.add_option("--normal-spread", options.normal_spread,
                  "A cell whose mean normal is shorter than this is split by orientation")

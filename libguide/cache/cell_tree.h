@@ -1,0 +1,196 @@
+#pragma once
+// Cells in training and the tree over them, whatever the cells hold.
+
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "libguide/cache/cell_split.h"
+#include "libguide/cache/training_clock.h"
+#include "libguide/spatial/orientation_tree.h"
+
+namespace waylight {
+
+// Who lends its mixture to whom.
+struct CellLoan {
+  uint32_t borrower = 0, lender = 0;
+  float share = 1;  // of the lender's evidence
+};
+
+static_assert(kMaxTreeDepth < 256);
+
+// Cell: centre() of its photons; born() in photons of the whole training, and restate_birth(born).
+template <typename Cell>
+class CellTree {
+ public:
+  explicit CellTree(Cell root = {})
+      : nodes_{{0, 0, kLeafAxis}}, cells_{std::move(root)}, node_of_cell_{0}, depth_{0} {}
+  // nodes: passed check_tree().
+  CellTree(std::vector<CacheNode> nodes, std::deque<Cell> cells);
+
+  const std::vector<CacheNode>& nodes() const { return nodes_; }
+  const std::deque<Cell>& cells() const { return cells_; }
+  uint32_t find(const Vec3& position, const Vec3& normal) const {
+    return find_leaf(nodes_, position, normal);
+  }
+  size_t size() const { return cells_.size(); }
+  Cell& operator[](size_t i) { return cells_[i]; }
+
+  // In index order, while there are fewer than max_cells: the result does not depend on threads.
+  // where(cell): a CellSplit or nothing. child(cell, split, upper): one of the two that replace it.
+  template <typename Where, typename Child>
+  void split_cells(size_t max_cells, const Where& where, const Child& child);
+
+  // Restates when cells were made so that the photons since then stand for their particles at the
+  // mean rate of the whole training; for a first stream they do.
+  void restate_exposure(const TrainingClock& clock);
+
+  // The nearest relative that can lend to each cell in need: needs(cell), can_lend(borrower,
+  // lender). Loans are to be made after all were found.
+  template <typename Needs, typename CanLend>
+  std::vector<CellLoan> find_loans(const Needs& needs, const CanLend& can_lend) const;
+
+  size_t bytes() const {
+    return nodes_.capacity() * sizeof(CacheNode) +
+           cells_.size() * (sizeof(Cell) + sizeof(uint32_t) + sizeof(uint8_t));
+  }
+
+ private:
+  // How far a cell looks for a mixture to inherit: ancestors up, and leaves under each.
+  static constexpr int kMaxGenerations = 6;
+  static constexpr size_t kMaxRelatives = 64;
+
+  void split(uint32_t cell, const CellSplit& split, Cell lower, Cell upper);
+  std::vector<uint32_t> parents() const;
+  float distance2(uint32_t a, uint32_t b) const {
+    return (cells_[a].centre() - cells_[b].centre()).squaredNorm();
+  }
+  template <typename CanLend>
+  std::optional<CellLoan> find_loan(uint32_t borrower, std::span<const uint32_t> parents,
+                                    const CanLend& can_lend) const;
+  template <typename CanLend>
+  std::optional<uint32_t> nearest_lender(uint32_t borrower, uint32_t subtree,
+                                         const CanLend& can_lend) const;
+
+  std::vector<CacheNode> nodes_;
+  std::deque<Cell> cells_;  // never moved: growing a vector would need twice the memory
+  std::vector<uint32_t> node_of_cell_;
+  std::vector<uint8_t> depth_;  // of the cell's leaf
+};
+
+template <typename Cell>
+CellTree<Cell>::CellTree(std::vector<CacheNode> nodes, std::deque<Cell> cells)
+    : nodes_(std::move(nodes)),
+      cells_(std::move(cells)),
+      node_of_cell_(cells_.size()),
+      depth_(cells_.size()) {
+  std::vector<uint8_t> depth(nodes_.size());
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    const CacheNode& node = nodes_[i];
+    if (node.axis == kLeafAxis) {
+      node_of_cell_[node.child] = i;
+      depth_[node.child] = depth[i];
+    } else {
+      depth[node.child] = depth[node.child + 1] = static_cast<uint8_t>(depth[i] + 1);
+    }
+  }
+}
+
+template <typename Cell>
+template <typename Where, typename Child>
+void CellTree<Cell>::split_cells(size_t max_cells, const Where& where, const Child& child) {
+  const uint32_t count = static_cast<uint32_t>(cells_.size());
+  for (uint32_t i = 0; i < count && cells_.size() < max_cells; ++i) {
+    if (depth_[i] >= kMaxTreeDepth) continue;
+    const std::optional<CellSplit> place = where(cells_[i]);
+    if (place) split(i, *place, child(cells_[i], *place, false), child(cells_[i], *place, true));
+  }
+}
+
+template <typename Cell>
+void CellTree<Cell>::split(uint32_t cell, const CellSplit& split, Cell lower, Cell upper) {
+  const uint32_t child = static_cast<uint32_t>(nodes_.size());
+  const uint32_t new_cell = static_cast<uint32_t>(cells_.size());
+  nodes_[node_of_cell_[cell]] = {split.value, child, split.axis};
+  nodes_.push_back({0, cell, kLeafAxis});
+  nodes_.push_back({0, new_cell, kLeafAxis});
+  cells_[cell] = std::move(lower);
+  cells_.push_back(std::move(upper));
+  node_of_cell_[cell] = child;
+  node_of_cell_.push_back(child + 1);
+  depth_[cell] += 1;
+  depth_.push_back(depth_[cell]);
+}
+
+template <typename Cell>
+void CellTree<Cell>::restate_exposure(const TrainingClock& clock) {
+  if (clock.particles_before <= 0) return;
+  for (Cell& cell : cells_) {
+    const double share = clock.exposure(cell.born()) / clock.particles;
+    cell.restate_birth(clock.photons * std::clamp(1 - share, 0.0, 1.0));
+  }
+}
+
+// The root is its own parent.
+template <typename Cell>
+std::vector<uint32_t> CellTree<Cell>::parents() const {
+  std::vector<uint32_t> parents(nodes_.size());
+  for (uint32_t i = 0; i < nodes_.size(); ++i)
+    if (nodes_[i].axis != kLeafAxis) parents[nodes_[i].child] = parents[nodes_[i].child + 1] = i;
+  return parents;
+}
+
+template <typename Cell>
+template <typename Needs, typename CanLend>
+std::vector<CellLoan> CellTree<Cell>::find_loans(const Needs& needs,
+                                                 const CanLend& can_lend) const {
+  const std::vector<uint32_t> parents = this->parents();
+  std::vector<CellLoan> loans;
+  for (uint32_t i = 0; i < cells_.size(); ++i) {
+    if (!needs(cells_[i])) continue;
+    if (const std::optional<CellLoan> loan = find_loan(i, parents, can_lend))
+      loans.push_back(*loan);
+  }
+  return loans;
+}
+
+// Each generation halves the evidence, as the splits in between would have done.
+template <typename Cell>
+template <typename CanLend>
+std::optional<CellLoan> CellTree<Cell>::find_loan(uint32_t borrower,
+                                                  std::span<const uint32_t> parents,
+                                                  const CanLend& can_lend) const {
+  uint32_t node = node_of_cell_[borrower];
+  float share = 1;
+  for (int i = 0; i < kMaxGenerations && node != 0; ++i) {
+    node = parents[node];
+    share *= 0.5f;
+    if (const std::optional<uint32_t> lender = nearest_lender(borrower, node, can_lend))
+      return CellLoan{borrower, *lender, share};
+  }
+  return std::nullopt;
+}
+
+template <typename Cell>
+template <typename CanLend>
+std::optional<uint32_t> CellTree<Cell>::nearest_lender(uint32_t borrower, uint32_t subtree,
+                                                       const CanLend& can_lend) const {
+  std::optional<uint32_t> nearest;
+  std::vector<uint32_t> open = {subtree};
+  for (size_t leaves = 0; !open.empty() && leaves < kMaxRelatives;) {
+    const CacheNode& node = nodes_[open.back()];
+    open.pop_back();
+    if (node.axis != kLeafAxis) {
+      open.insert(open.end(), {node.child + 1, node.child});
+      continue;
+    }
+    ++leaves;
+    if (!can_lend(cells_[borrower], cells_[node.child])) continue;
+    if (!nearest || distance2(borrower, node.child) < distance2(borrower, *nearest))
+      nearest = node.child;
+  }
+  return nearest;
+}
+
+}  // namespace waylight

@@ -1,0 +1,105 @@
+#include "libguide/cache/medium_training_cell.h"
+
+#include "libguide/cache/medium_volume.h"
+#include "libguide/cache/position_moments.h"
+
+namespace waylight {
+namespace {
+
+void forget_half(MediumTraining& cell) {
+  cell.count *= 0.5f;
+  cell.position_m2 *= 0.5f;
+  cell.position_cross *= 0.5f;
+}
+
+}  // namespace
+
+MediumTrainingCell::MediumTrainingCell(const Bounds& box, const MediumCell& cell,
+                                       const MediumTraining& training, const TrainedLobes& indirect,
+                                       const TrainedLobes& direct)
+    : box_(box),
+      training_(training),
+      indirect_(cell.indirect, training.indirect, indirect.components, indirect.statistics),
+      direct_(cell.direct, training.direct, direct.components, direct.statistics) {}
+
+size_t MediumTrainingCell::absorb(std::span<const MediumPhoton> block,
+                                  std::span<const uint32_t> indices, float emitted,
+                                  const MediumCellOptions& options) {
+  add_positions(block, indices);
+  size_t capped = 0;
+  for (const uint32_t i : indices) {
+    const MediumPhoton& photon = block[i];
+    const bool direct = photon.path_depth == 0;
+    capped += (direct ? direct_ : indirect_)
+                  .receive(photon.direction, luminance(photon.weight) * emitted,
+                           direct ? options.direct : options.indirect);
+  }
+  return capped;
+}
+
+void MediumTrainingCell::add_positions(std::span<const MediumPhoton> block,
+                                       std::span<const uint32_t> indices) {
+  PositionSums sums(training_.count > 0 ? training_.position_mean
+                                        : block[indices.front()].position);
+  for (const uint32_t i : indices) {
+    sums.add(block[i].position);
+    training_.occupied |= part_of_box(box_, block[i].position);
+  }
+  const float count = static_cast<float>(indices.size()), n = training_.count + count;
+  sums.merge_into(training_, count, count * (training_.count / n) - count, count / n);
+  training_.count = n;
+  if (training_.count > kMaxMomentCount) forget_half(training_);
+}
+
+size_t MediumTrainingCell::flush(const MediumCellOptions& options) {
+  return indirect_.flush(options.indirect) + direct_.flush(options.direct);
+}
+
+std::optional<CellSplit> MediumTrainingCell::choose_split(size_t photons_per_cell,
+                                                          float min_extent) const {
+  if (!(training_.count > static_cast<float>(photons_per_cell))) return std::nullopt;
+  return choose_position_split(training_.position_mean, training_.position_m2 / training_.count,
+                               min_extent);
+}
+
+MediumTrainingCell MediumTrainingCell::child(const CellSplit& split, bool upper, double now,
+                                             const MediumCellOptions& options) const {
+  MediumTrainingCell child(box_);
+  (upper ? child.box_.min : child.box_.max)[split.axis] = split.value;
+  inherit_fluence(child, now, options.min_extent);
+  child.indirect_.inherit_as_child(indirect_, options.indirect);
+  child.direct_.inherit_as_child(direct_, options.direct);
+  return child;
+}
+
+// As if the child had seen kInheritedPhotons of its half of the parent's photons: where it is dark
+// and the rest of the parent is not, the time without photons soon outweighs them. Where the medium
+// does not fill the parent, as much of it is taken to be in the child as there are photons.
+void MediumTrainingCell::inherit_fluence(MediumTrainingCell& child, double now,
+                                         float min_extent) const {
+  const double volume =
+      fills_box(training_) ? box_volume(child.box_) : 0.5 * medium_volume(training_, box_);
+  child.training_.inherited_volume = static_cast<float>(volume);
+  const double photons_of_all = (now - training_.born) / training_.count;  // per photon of the cell
+  const double exposure = 2 * kInheritedPhotons * photons_of_all;
+  child.training_.born = now - exposure;
+  child.indirect_.begin_with_flux(fluence(indirect_, now, min_extent) * volume * exposure);
+  child.direct_.begin_with_flux(fluence(direct_, now, min_extent) * volume * exposure);
+}
+
+float MediumTrainingCell::fluence(const TrainingLight& light, double now, float min_extent) const {
+  const double least = double{min_extent} * min_extent * min_extent;
+  const double volume = std::max(medium_volume(training_, box_), least);
+  const double spread = volume * (now - training_.born);
+  const double limit = std::numeric_limits<float>::max();
+  return spread > 0 ? static_cast<float>(std::min(light.training().flux / spread, limit)) : 0.0f;
+}
+
+MediumTraining MediumTrainingCell::training() const {
+  MediumTraining result = training_;
+  result.indirect = indirect_.training();
+  result.direct = direct_.training();
+  return result;
+}
+
+}  // namespace waylight
