@@ -1,8 +1,9 @@
 #pragma once
-// Readers of volume grids. Values of more channels are interleaved: channel c of a voxel is at
+// Volume grids in and out. Values of more channels are interleaved: channel c of a voxel is at
 // voxel * channels + c. The centre of voxel i of n is at (i + 0.5) / n of the grid's [0,1]^3.
 // Values that are not finite are an Error; negative ones, noise of simulations, become 0.
 
+#include <map>
 #include <string>
 
 #include "libguide/medium/medium.h"
@@ -16,5 +17,10 @@ VolumeGrid read_vol(const std::string& path);
 // grid_to_world from its transform. An empty gridname takes the only grid, or "density". A grid
 // without active voxels becomes one voxel of the background value.
 VolumeGrid read_vdb(const std::string& path, const std::string& gridname);
+
+// OpenVDB float grid of one channel. Sparse: what is 0 is background, and not stored. Equal grids
+// give equal bytes.
+void write_vdb(const std::string& path, const VolumeGrid& grid, const std::string& gridname,
+               const std::map<std::string, std::string>& metadata = {});
 
 }  // namespace waylight

@@ -3,6 +3,8 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
+#include "formats/atomic_file.h"
+#include "formats/content_hash.h"
 #include "formats/file_bytes.h"
 #include "formats/volume_checks.h"
 #include "formats/volume_io.h"
@@ -78,6 +80,46 @@ VolumeGrid to_volume(const openvdb::GridBase& grid, const std::string& path) {
   return volume;
 }
 
+// The inverse of grid_to_world(): voxel (i, j, k) is centred at the integers.
+openvdb::math::Transform::Ptr transform_of(const VolumeGrid& grid) {
+  Eigen::Matrix4d index_to_grid = Eigen::Matrix4d::Identity();
+  for (int axis = 0; axis < 3; ++axis) {
+    index_to_grid(axis, axis) = 1.0 / grid.size[axis];
+    index_to_grid(axis, 3) = 0.5 / grid.size[axis];
+  }
+  const Eigen::Matrix4d index_to_world = grid.grid_to_world.cast<double>() * index_to_grid;
+  openvdb::math::Mat4d rows;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) rows(j, i) = index_to_world(i, j);
+  return openvdb::math::Transform::createLinearTransform(rows);
+}
+
+openvdb::FloatGrid::Ptr to_sparse(const VolumeGrid& grid) {
+  openvdb::FloatGrid::Ptr sparse = openvdb::FloatGrid::create(0);
+  openvdb::FloatGrid::Accessor voxels = sparse->getAccessor();
+  const float* value = grid.values.data();
+  for (int z = 0; z < grid.size.z(); ++z)
+    for (int y = 0; y < grid.size.y(); ++y)
+      for (int x = 0; x < grid.size.x(); ++x, ++value)
+        if (*value != 0) voxels.setValue({x, y, z}, *value);
+  sparse->setTransform(transform_of(grid));
+  sparse->setGridClass(openvdb::GRID_FOG_VOLUME);
+  return sparse;
+}
+
+// Every file has a UUID after its magic number, versions and a flag, by OpenVDB the clock's; here
+// it is the hash of the rest.
+void replace_uuid(std::string& bytes) {
+  constexpr size_t kAt = 8 + 3 * 4 + 1;
+  const std::string blank = "00000000-0000-0000-0000-000000000000";
+  bytes.replace(kAt, blank.size(), blank);
+  ContentHash hash;
+  hash.add(bytes);
+  const std::string digits = fmt::format("{:016x}", hash.value());
+  bytes.replace(kAt + 19, 4, digits, 0, 4);
+  bytes.replace(kAt + 24, 12, digits, 4, 12);
+}
+
 }  // namespace
 
 VolumeGrid read_vdb(const std::string& path, const std::string& gridname) {
@@ -92,6 +134,22 @@ VolumeGrid read_vdb(const std::string& path, const std::string& gridname) {
   } catch (const std::exception& e) {
     fail("\"{}\": cannot be read as OpenVDB: {}", path, e.what());
   }
+}
+
+void write_vdb(const std::string& path, const VolumeGrid& grid, const std::string& gridname,
+               const std::map<std::string, std::string>& metadata) {
+  if (grid.channels != 1)
+    fail("\"{}\": a grid of {} channels cannot be written", path, grid.channels);
+  openvdb::initialize();
+  const openvdb::FloatGrid::Ptr sparse = to_sparse(grid);
+  sparse->setName(gridname);
+  for (const auto& [name, text] : metadata) sparse->insertMeta(name, openvdb::StringMetadata(text));
+  write_atomically(path, [&](const std::string& temporary) {
+    openvdb::io::File(temporary).write(openvdb::GridCPtrVec{sparse});
+    std::string bytes = read_whole_file(temporary);
+    replace_uuid(bytes);
+    write_whole_file(temporary, bytes);
+  });
 }
 
 }  // namespace waylight
