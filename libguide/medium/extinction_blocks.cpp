@@ -11,6 +11,7 @@ int side_of(const Eigen::Vector3i& size) { return std::clamp(size.maxCoeff() / 1
 ExtinctionBlocks::ExtinctionBlocks(const VolumeGrid& density, float scale)
     : side_(side_of(density.size)), to_voxels_(density) {
   counts_ = ((density.size.array() + side_ - 1) / side_).matrix();
+  extent_ = density.size.cast<float>() / static_cast<float>(side_);
   blocks_.reserve(static_cast<size_t>(counts_.x()) * counts_.y() * counts_.z());
   for (int z = 0; z < counts_.z(); ++z)
     for (int y = 0; y < counts_.y(); ++y)
@@ -50,7 +51,7 @@ BlockWalk::BlockWalk(const ExtinctionBlocks& blocks, const Ray& ray, float t_max
   const Vec3 direction = blocks.to_voxels_.direction(ray.direction) / side;
   for (int axis = 0; axis < 3; ++axis) {
     const float o = origin[axis], d = direction[axis];
-    const float size = static_cast<float>(blocks.counts_[axis]);
+    const float size = blocks.extent_[axis];
     if (d == 0) {
       if (o < 0 || o > size) t_exit_ = -1;
       continue;

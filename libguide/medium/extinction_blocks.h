@@ -42,6 +42,7 @@ class ExtinctionBlocks {
   int side_ = 1;
   float most_ = 0;
   Eigen::Vector3i counts_ = Eigen::Vector3i::Zero();
+  Vec3 extent_ = Vec3::Zero();  // of the grid, in blocks; the last ones may reach beyond it
   WorldToVoxels to_voxels_;
   std::vector<ExtinctionBounds> blocks_;
 };

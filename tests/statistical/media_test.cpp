@@ -66,7 +66,7 @@ TEST(Media, ACloudOfAlbedoOneVanishesInAWhiteFurnace) {
     SceneDescription scene =
         box_of(testing::cloud(testing::lumpy_grid(channels), 8, 1), {0, 0, 0}, {1, 1, 1});
     scene.emitters.push_back(ConstantEnvironment{Color::Ones()});
-    look_along_z(scene, {0.5f, 0.5f, -1.5f}, 8, 8);
+    testing::look_along_z(scene, {0.5f, 0.5f, -1.5f}, 8, 8);
     expect_mean(mean_of(scene, 256), Color::Ones(), "furnace");
   }
 }
@@ -75,7 +75,7 @@ TEST(Media, AGlassBallOfFogVanishesInAWhiteFurnace) {
   SceneDescription scene;
   scene.media.push_back(homogeneous(Color(0.5f, 1, 2), Color::Ones(), 0.3f));
   const uint32_t ball =
-      add_shape(scene, Sphere{}, testing::add_material(scene, "glass", DielectricMaterial{}));
+      testing::add_shape(scene, Sphere{}, testing::add_material(scene, "glass", DielectricMaterial{}));
   scene.shapes[ball].interior_medium = 0;
   scene.emitters.push_back(ConstantEnvironment{Color::Ones()});
   testing::look_along_z(scene, {0, 0, -4}, 8, 8);
