@@ -4,37 +4,62 @@
 #include "libguide/base/parallel.h"
 #include "libguide/directional/gaussian_mixture.h"
 #include "libguide/directional/gaussian_reduction.h"
+#include "libguide/directional/vmf_reduction.h"
 
 namespace waylight {
 namespace {
 
+ReductionResult reduce_one(std::span<const GaussianComponent> mixture,
+                           const CacheReduceOptions& options) {
+  return reduce_mixture(mixture, options.max_cost, options.max_components);
+}
+
+VmfReductionResult reduce_one(std::span<const VmfComponent> mixture,
+                              const CacheReduceOptions& options) {
+  return reduce_vmf_mixture(mixture, options.max_cost, options.max_components);
+}
+
 // Reduces the mixtures of `owners`, each with first_component and component_count, and lays their
 // components out anew in the same order.
-template <typename Owner>
-void reduce_all(std::vector<Owner>& owners, std::vector<GaussianComponent>& components,
-                const CacheReduceOptions& options, CacheReduceSummary* summary) {
-  std::vector<ReductionResult> reduced(owners.size());
+template <typename Owner, typename Component>
+MixtureReduction reduce_all(std::span<Owner* const> owners, std::vector<Component>& components,
+                            const CacheReduceOptions& options) {
+  std::vector<Reduction<Component>> reduced(owners.size());
   parallel_for(owners.size(), [&](size_t i) {
-    const std::span<const GaussianComponent> mixture(components.data() + owners[i].first_component,
-                                                     owners[i].component_count);
-    reduced[i] = reduce_mixture(mixture, options.max_cost, options.max_components);
+    const std::span<const Component> mixture(components.data() + owners[i]->first_component,
+                                             owners[i]->component_count);
+    reduced[i] = reduce_one(mixture, options);
   });
-  std::vector<GaussianComponent> kept;
-  CacheReduceSummary sums;
+  std::vector<Component> kept;
+  MixtureReduction sums;
   for (size_t i = 0; i < owners.size(); ++i) {
-    sums.mixtures += owners[i].component_count > 0;
-    sums.components_before += owners[i].component_count;
+    sums.mixtures += owners[i]->component_count > 0;
+    sums.components_before += owners[i]->component_count;
     sums.components_after += reduced[i].components.size();
     sums.mean_cost += reduced[i].percent();
-    owners[i].first_component = static_cast<uint32_t>(kept.size());
-    owners[i].component_count = static_cast<uint32_t>(reduced[i].components.size());
+    owners[i]->first_component = static_cast<uint32_t>(kept.size());
+    owners[i]->component_count = static_cast<uint32_t>(reduced[i].components.size());
     kept.insert(kept.end(), reduced[i].components.begin(), reduced[i].components.end());
   }
   components = std::move(kept);
   const double count = std::max<size_t>(sums.mixtures, 1);
-  if (summary)
-    *summary = {sums.mixtures, sums.components_before / count, sums.components_after / count,
-                sums.mean_cost / count};
+  return {sums.mixtures, sums.components_before / count, sums.components_after / count,
+          sums.mean_cost / count};
+}
+
+template <typename Owner>
+std::vector<Owner*> pointers_to(std::vector<Owner>& owners) {
+  std::vector<Owner*> pointers;
+  for (Owner& owner : owners) pointers.push_back(&owner);
+  return pointers;
+}
+
+MixtureReduction reduce_media(MediumCache& medium, const CacheReduceOptions& options) {
+  std::vector<MediumLight*> lights;
+  for (MediumCell& cell : medium.cells) lights.insert(lights.end(), {&cell.indirect, &cell.direct});
+  medium.statistics.clear();
+  medium.training.clear();
+  return reduce_all<MediumLight>(lights, medium.components, options);
 }
 
 }  // namespace
@@ -48,14 +73,19 @@ void CacheReduceOptions::validate() const {
 
 BrdfCache reduce(BrdfCache cache, const CacheReduceOptions& options, CacheReduceSummary* summary) {
   options.validate();
-  reduce_all(cache.entries, cache.components, options, summary);
+  const std::vector<BrdfCacheEntry*> entries = pointers_to(cache.entries);
+  const MixtureReduction reduction = reduce_all<BrdfCacheEntry>(entries, cache.components, options);
+  if (summary) *summary = {reduction, {}};
   return cache;
 }
 
 GuideCache reduce(GuideCache cache, const CacheReduceOptions& options,
                   CacheReduceSummary* summary) {
   options.validate();
-  reduce_all(cache.cells, cache.components, options, summary);
+  const std::vector<CacheCell*> cells = pointers_to(cache.cells);
+  const MixtureReduction reduction = reduce_all<CacheCell>(cells, cache.components, options);
+  const MixtureReduction media = reduce_media(cache.medium, options);
+  if (summary) *summary = {reduction, media};
   cache.statistics.clear();
   cache.training.clear();
   parallel_for(cache.cells.size(), [&](size_t i) {

@@ -13,10 +13,14 @@ struct CacheReduceOptions {
   void validate() const;
 };
 
-struct CacheReduceSummary {
+struct MixtureReduction {
   size_t mixtures = 0;
   double components_before = 0, components_after = 0;  // means per mixture
   double mean_cost = 0;                                // percent
+};
+
+struct CacheReduceSummary : MixtureReduction {
+  MixtureReduction media;  // two mixtures a cell, of indirect and of direct light
 };
 
 BrdfCache reduce(BrdfCache cache, const CacheReduceOptions& options, CacheReduceSummary* summary);

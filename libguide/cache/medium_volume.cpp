@@ -12,6 +12,32 @@ constexpr float kOwnVolumePhotons = 256, kFirstVolumePhotons = 32;
 
 constexpr int kPartsOfFullBox = 60;
 
+// The parts of a box whose index along an axis is within [first, last].
+uint64_t slab(int axis, int first, int last) {
+  uint64_t parts = 0;
+  for (int part = 0; part < 64; ++part) {
+    const int index = part >> 2 * axis & 3;
+    if (index >= first && index <= last) parts |= uint64_t{1} << part;
+  }
+  return parts;
+}
+
+// Every quarter of the box along each axis, and each of its octants, saw a photon.
+bool spans_box(uint64_t occupied) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 4; ++i)
+      if (!(occupied & slab(axis, i, i))) return false;
+  for (int octant = 0; octant < 8; ++octant) {
+    uint64_t parts = occupied;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int first = octant >> axis & 1 ? 2 : 0;
+      parts &= slab(axis, first, first + 1);
+    }
+    if (!parts) return false;
+  }
+  return true;
+}
+
 int part_along(float low, float high, float x) {
   const float extent = high - low;
   return extent > 0 ? static_cast<int>(std::clamp(4 * (x - low) / extent, 0.0f, 3.0f)) : 0;
@@ -47,8 +73,10 @@ double medium_volume(const MediumTraining& cell, const Bounds& box) {
   const double whole = box_volume(box);
   if (fills_box(cell)) return whole;
   const bool child = cell.inherited_volume > 0;
-  if (cell.count >= (child ? kOwnVolumePhotons : kFirstVolumePhotons))
-    return std::min(whole, photon_volume(cell));
+  if (cell.count >= (child ? kOwnVolumePhotons : kFirstVolumePhotons)) {
+    const double least = spans_box(cell.occupied) ? 0.5 * whole : 0;
+    return std::clamp(photon_volume(cell), least, whole);
+  }
   return child ? std::min<double>(whole, cell.inherited_volume) : whole;
 }
 

@@ -23,7 +23,9 @@ double photon_volume(const MediumTraining& cell);
 // what counts as full. It takes about 200 photons where the light is even.
 bool fills_box(const MediumTraining& cell);
 
-// The box where the medium fills it, else no more than photon_volume(). What the parent knew until
+// The box where the medium fills it, else photon_volume() but no more than the box. No less than
+// half of the box either where photons were seen all over it, as in a ball: in a cell that a beam
+// crosses, most photons are on a line, and the medium is around it. What the parent knew until
 // there are photons enough, and for a cell that saw none nor has a parent, the box.
 double medium_volume(const MediumTraining& cell, const Bounds& box);
 

@@ -6,7 +6,9 @@
 
 #include "libguide/base/error.h"
 #include "libguide/base/parallel.h"
+#include "libguide/directional/vmf_reduction.h"
 #include "unit/directional/mixtures.h"
+#include "unit/directional/vmf_mixtures.h"
 
 namespace waylight {
 namespace {
@@ -66,6 +68,45 @@ TEST(CacheReduce, GuideCacheLosesItsTrainingAndKeepsItsEmptyCells) {
   EXPECT_EQ(after.components.size(), after.cells[1].component_count);
   EXPECT_NEAR(after.cells[1].guided_mass, mass_inside(GaussianMixture(after.components)), 1e-6);
   EXPECT_EQ(summary.mixtures, 1u);
+}
+
+TEST(CacheReduce, LobesOfMediaAreMergedWithinTheirLight) {
+  GuideCache cache;
+  MediumCache& m = cache.medium;
+  for (int i = 0; i < 10; ++i) {
+    MediumCell& cell = m.cells.emplace_back();
+    for (MediumLight* light : {&cell.indirect, &cell.direct}) {
+      const auto lobes = test::random_lobes(light == &cell.direct ? i % 5 : 8, i);
+      light->fluence = 1;
+      light->first_component = static_cast<uint32_t>(m.components.size());
+      light->component_count = static_cast<uint32_t>(lobes.size());
+      m.components.insert(m.components.end(), lobes.begin(), lobes.end());
+    }
+  }
+  m.statistics.resize(m.components.size());
+  m.training.resize(10);
+  CacheReduceSummary summary;
+  const MediumCache after = reduce(cache, {20, 3}, &summary).medium;
+  EXPECT_TRUE(after.statistics.empty());
+  EXPECT_TRUE(after.training.empty());
+  EXPECT_EQ(summary.mixtures, 0u);
+  EXPECT_EQ(summary.media.mixtures, 18u);  // two have no direct light
+  size_t next = 0;
+  for (size_t i = 0; i < 10; ++i)
+    for (const auto light : {&MediumCell::indirect, &MediumCell::direct}) {
+      const MediumLight& l = after.cells[i].*light;
+      EXPECT_EQ(l.first_component, next);
+      EXPECT_LE(l.component_count, 3u);
+      next += l.component_count;
+      const auto kept = reduce_vmf_mixture(
+          std::span(m.components)
+              .subspan((m.cells[i].*light).first_component, (m.cells[i].*light).component_count),
+          20, 3);
+      ASSERT_EQ(l.component_count, kept.components.size());
+      for (uint32_t k = 0; k < l.component_count; ++k)
+        EXPECT_EQ(after.components[l.first_component + k].kappa, kept.components[k].kappa);
+    }
+  EXPECT_EQ(after.components.size(), next);
 }
 
 TEST(CacheReduce, TheSameBytesForAnyNumberOfThreads) {

@@ -173,6 +173,26 @@ TEST(CacheTrainMedia, FluenceOfLightThatFallsOff) {
   EXPECT_LT(s.deviation, 0.25);  // cells have an extent
 }
 
+// All along the surface of a ball cells are cut. With 1000 cells the mean is 1 % low.
+TEST(CacheTrainMedia, FluenceInABall) {
+  const auto place = [](uint64_t seed, uint32_t i) -> Vec3 {
+    Sampler sampler(seed, 0, i);
+    const Vec2 u = sampler.next_2d();
+    return Vec3(0, 2.5f, 0.25f) + 0.25f * std::cbrt(sampler.next()) * square_to_sphere(u);
+  };
+  std::vector<MediumPhoton> photons = even_light(200'000, {4 * kPi / 3 / 64, 1});
+  for (uint32_t i = 0; i < photons.size(); ++i) photons[i].position = place(1, i);
+  const GuideCache cache = train(photons, fog_info(1000));
+  const MediumCacheView view(cache.medium);
+  double sum = 0;
+  for (uint32_t i = 0; i < 2000; ++i) {
+    const float fluence = view.query(place(2, i))->indirect.fluence;
+    EXPECT_NEAR(fluence, 1, 0.35);
+    sum += fluence / 2000;
+  }
+  EXPECT_NEAR(sum, 1, 0.05);
+}
+
 TEST(CacheTrainMedia, RecoversTheDirectionAndTheMeanCosineOfOneLobe) {
   const Vec3 mean = Vec3(1, -2, 0.5f).normalized();
   for (const float kappa : {0.5f, 5.0f, 200.0f}) {

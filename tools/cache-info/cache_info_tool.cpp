@@ -8,6 +8,7 @@
 #include "formats/file_kind.h"
 #include "libguide/base/error.h"
 #include "tools/cache-info/describe.h"
+#include "tools/cache-info/medium_plot.h"
 #include "tools/cache-info/text_report.h"
 #include "tools/common/provenance_of.h"
 
@@ -17,7 +18,7 @@ namespace {
 void validate(const CacheInfoArguments& arguments, FileKind kind) {
   const LobePlotArguments& plot = arguments.plot;
   require(plot.target.empty() == plot.output.empty(),
-          "--plot CELL|MATERIAL and -o PICTURE belong together");
+          "--plot CELL|X,Y,Z|MATERIAL and -o PICTURE belong together");
   require(plot.samples.empty() || kind == FileKind::cache,
           "--samples belongs to the --plot of an illumination cache");
   require(plot.scene.path.empty() || kind == FileKind::brdf,
@@ -37,14 +38,20 @@ void require_sound(const std::string& path, const nlohmann::ordered_json& info) 
     fail("\"{}\": {} numbers are not finite", path, found->get<uint64_t>());
 }
 
+void plot(const ToolRun& run, const CacheInfoArguments& arguments, FileKind kind) {
+  if (kind == FileKind::brdf) return plot_material(run, arguments.file, arguments.plot);
+  if (const std::optional<Vec3> position = parse_position(arguments.plot.target))
+    return plot_medium(run, arguments.file, *position, arguments.plot);
+  plot_cell(run, arguments.file, arguments.plot);
+}
+
 }  // namespace
 
 void cache_info(const ToolRun& run, const CacheInfoArguments& arguments) {
   const FileKind kind = identify_file(arguments.file);
   validate(arguments, kind);
   if (!arguments.plot.target.empty()) {
-    kind == FileKind::cache ? plot_cell(run, arguments.file, arguments.plot)
-                            : plot_material(run, arguments.file, arguments.plot);
+    plot(run, arguments, kind);
     return;
   }
   nlohmann::ordered_json info = describe_content(arguments.file, kind, run);

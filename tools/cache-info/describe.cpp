@@ -12,6 +12,8 @@
 #include "formats/image_io.h"
 #include "formats/photon_file.h"
 #include "libguide/base/error.h"
+#include "tools/cache-info/describe_media.h"
+#include "tools/cache-info/range.h"
 #include "tools/common/provenance_of.h"
 
 namespace waylight {
@@ -22,24 +24,6 @@ using Json = nlohmann::ordered_json;
 std::string hex(uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 double ratio(double sum, double count) { return count > 0 ? sum / count : 0; }
-
-// Least, mean and largest of some numbers.
-class Range {
- public:
-  void add(double value) {
-    least_ = count_ == 0 ? value : std::min(least_, value);
-    largest_ = count_ == 0 ? value : std::max(largest_, value);
-    sum_ += value;
-    ++count_;
-  }
-  Json json() const {
-    return {{"least", least_}, {"mean", ratio(sum_, double(count_))}, {"largest", largest_}};
-  }
-
- private:
-  uint64_t count_ = 0;
-  double sum_ = 0, least_ = 0, largest_ = 0;
-};
 
 Json head(const std::string& path, const char* kind) {
   return {{"file", file_name(path)}, {"kind", kind}, {"bytes", std::filesystem::file_size(path)}};
@@ -151,6 +135,7 @@ Json describe_cache(const std::string& path) {
   add_cells(info, cache);
   if (!cache.escape_bins.empty()) info["escape_bins"] = cache.escape_bins.size();
   info["training"] = describe_training(cache);
+  if (!cache.medium.cells.empty()) info["media"] = describe_media(cache.medium);
   return info;
 }
 
@@ -159,30 +144,33 @@ struct PhotonTally {
   std::array<uint64_t, kDepths> counts{};
   std::array<double, kDepths> power{};  // luminance
 
-  void add(const Photon& photon) {
-    const size_t depth = std::min<size_t>(photon.path_depth, kDepths - 1);
+  void add(uint32_t path_depth, const Color& weight) {
+    const size_t depth = std::min<size_t>(path_depth, kDepths - 1);
     ++counts[depth];
-    power[depth] += luminance(photon.power);
+    power[depth] += luminance(weight);
   }
-  Json json() const {
+  // what: the name of the sums of weights.
+  Json json(const char* what) const {
     Json rows = Json::array();
     for (size_t i = 0; i < kDepths; ++i)
       if (counts[i] > 0)
         rows.push_back({{"depth", fmt::format("{}{}", i, i + 1 < kDepths ? "" : "+")},
                         {"photons", counts[i]},
-                        {"power", power[i]}});
+                        {what, power[i]}});
     return rows;
   }
 };
 
 Json describe_photons(const std::string& path, const ToolRun& run) {
   PhotonReader reader(path);
-  PhotonTally tally;
+  PhotonTally tally, medium_tally;
   uint64_t done = 0;
-  for (std::vector<Photon> photons; reader.read(&photons); done += photons.size()) {
+  std::vector<MediumPhoton> in_media;
+  for (std::vector<Photon> photons; reader.read(&photons, nullptr, &in_media);) {
     run.stop_if_interrupted();
-    run.control.progress(double(done), 0, "photons");
-    for (const Photon& photon : photons) tally.add(photon);
+    run.control.progress(double(done += photons.size() + in_media.size()), 0, "photons");
+    for (const Photon& photon : photons) tally.add(photon.path_depth, photon.power);
+    for (const MediumPhoton& photon : in_media) medium_tally.add(photon.path_depth, photon.weight);
   }
   Json info = head(path, "photons");
   add_provenance(info, reader.header().provenance);
@@ -197,7 +185,11 @@ Json describe_photons(const std::string& path, const ToolRun& run) {
                {"absorbed", c.absorbed},
                {"too_deep", c.too_deep},
                {"invalid", c.invalid},
-               {"depths", tally.json()}});
+               {"depths", tally.json("power")}});
+  if (reader.header().stream.media) {
+    info["in_media"] = c.in_media;
+    info["depths_in_media"] = medium_tally.json("weight");
+  }
   return info;
 }
 

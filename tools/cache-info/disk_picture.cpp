@@ -73,8 +73,12 @@ void DiskPicture::average_blocks(int pixels) {
 
 void DiskPicture::normalize() {
   const double sum = std::accumulate(values_.begin(), values_.end(), 0.0) * pixel_area();
-  if (sum > 0)
-    for (double& value : values_) value /= sum;
+  divide(sum);
+}
+
+void DiskPicture::divide(double by) {
+  if (by != 0)
+    for (double& value : values_) value /= by;
 }
 
 double DiskPicture::largest() const { return *std::max_element(values_.begin(), values_.end()); }

@@ -20,6 +20,7 @@ class DiskPicture {
   void average_blocks(int pixels);
   // Makes the integral over the disk 1, where it is not 0.
   void normalize();
+  void divide(double by);  // where that is not 0
 
   int size() const { return size_; }
   double at(int x, int y) const { return values_[size_t(y) * size_ + x]; }

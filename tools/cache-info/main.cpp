@@ -10,27 +10,30 @@ namespace {
 
 constexpr ToolInfo kTool = {
     "cache-info", "Says what a file is, where it comes from and what is in it",
-    "FILE [--json] [--check] [--plot CELL|MATERIAL -o lobe.png]",
+    "FILE [--json] [--check] [--plot CELL|X,Y,Z|MATERIAL -o lobe.png]",
     R"(FILE is any file of the pipeline: fitted BSDFs, photons, an illumination cache, an image. It is
 known by its content, not by its name.
 
 --plot draws one lobe on the equal-area disk, the upper hemisphere inside the ring: of a cell of an
 illumination cache, given by its number, the mixture and with --samples the photons it saw beside it;
-of a material, given by its name or number, the fit and with --scene the true BSDF beside it. Colours
-are logarithmic, from a ten thousandth of the largest value up.
+of a material, given by its name or number, the fit and with --scene the true BSDF beside it. Of the
+cell of a medium at X,Y,Z it draws the sphere about +z, indirect light on the left and direct light
+on the right, each relative to its largest density. Colours are logarithmic, from a ten thousandth of
+the largest value up.
 
 Examples:
   cache-info room.cache
   cache-info room.photons --check
   cache-info room.cache --plot 17 --samples room.photons -o lobe.png
+  cache-info fog.cache --plot 0.5,1,2 --samples fog.photons -o lobe.png
   cache-info room.brdf --plot floor --elevation 60 --scene room.xml -o lobe.png)"};
 
 void declare(CLI::App& app, CacheInfoArguments& arguments) {
   as_input(app.add_option("FILE", arguments.file, "File to look into"))->required();
   app.add_flag("--json", arguments.json, "Print JSON");
   app.add_flag("--check", arguments.check, "Verify everything, and say only that it is sound");
-  app.add_option("--plot", arguments.plot.target, "Cell or material to draw")
-      ->type_name("CELL|MATERIAL");
+  app.add_option("--plot", arguments.plot.target, "Cell, place in a medium or material to draw")
+      ->type_name("CELL|X,Y,Z|MATERIAL");
   as_output(app.add_option("-o,--output", arguments.plot.output, "Picture to draw (.png)"),
             {".png"});
   as_input(app.add_option("--samples", arguments.plot.samples,

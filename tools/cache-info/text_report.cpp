@@ -30,7 +30,7 @@ std::string in_line(const Json& object) {
   return text;
 }
 
-std::string name_column(const std::string& name) { return fmt::format("{:<20}", words(name)); }
+std::string name_column(const std::string& name) { return fmt::format("{:<19} ", words(name)); }
 
 std::vector<std::vector<std::string>> cells_of(const Json& rows) {
   std::vector<std::vector<std::string>> cells(1);
@@ -61,7 +61,8 @@ void add_entry(const std::string& name, const Json& value, std::vector<std::stri
   } else if (value.is_array()) {
     lines.push_back(value.empty() ? name_column(name) + "none" : words(name));
     if (!value.empty()) add_table(value, lines);
-  } else if (!value.empty() && value.front().is_structured()) {
+  } else if (std::any_of(value.begin(), value.end(),
+                         [](const Json& part) { return part.is_structured(); })) {
     for (const auto& [part, inner] : value.items()) add_entry(name + " " + part, inner, lines);
   } else {
     lines.push_back(name_column(name) + in_line(value));

@@ -15,23 +15,35 @@
 namespace waylight {
 namespace {
 
+nlohmann::ordered_json stats_of(const MixtureReduction& s) {
+  return {{"mixtures", s.mixtures},
+          {"components_before", s.components_before},
+          {"components_after", s.components_after},
+          {"mean_cost", s.mean_cost}};
+}
+
+void print(const ToolRun& run, const char* what, const MixtureReduction& s) {
+  run.print(
+      fmt::format("{}{} mixtures: {:.2f} -> {:.2f} components at {:.1f} % of the collapse cost",
+                  what, s.mixtures, s.components_before, s.components_after, s.mean_cost));
+}
+
 void report(const ToolRun& run, const Provenance& provenance, const CacheReduceArguments& arguments,
             const CacheReduceSummary& s, double seconds) {
   const auto before = std::filesystem::file_size(arguments.input);
   const auto after = std::filesystem::file_size(arguments.output);
-  run.print(fmt::format("{} mixtures: {:.2f} -> {:.2f} components at {:.1f} % of the collapse cost",
-                        s.mixtures, s.components_before, s.components_after, s.mean_cost));
+  print(run, "", s);
+  if (s.media.mixtures > 0) print(run, "media: ", s.media);
   run.print(fmt::format("{} -> {} in {:.2f} s", format_bytes(double(before)),
                         format_bytes(double(after)), seconds));
   nlohmann::ordered_json stats = stats_of(provenance);
-  stats.update({{"seconds", seconds},
-                {"mixtures", s.mixtures},
-                {"components_before", s.components_before},
-                {"components_after", s.components_after},
-                {"mean_cost", s.mean_cost},
-                {"bytes_before", before},
+  stats["seconds"] = seconds;
+  stats.update(stats_of(static_cast<const MixtureReduction&>(s)));
+  const size_t mixtures = std::max<size_t>(s.mixtures + s.media.mixtures, 1);
+  stats.update({{"bytes_before", before},
                 {"bytes_after", after},
-                {"bytes_per_mixture", double(after) / double(std::max<size_t>(s.mixtures, 1))}});
+                {"bytes_per_mixture", double(after) / double(mixtures)}});
+  if (s.media.mixtures > 0) stats["media"] = stats_of(s.media);
   run.write_stats(stats);
 }
 

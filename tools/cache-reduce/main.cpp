@@ -13,7 +13,8 @@ constexpr ToolInfo kTool = {
     "IN -o OUT [--max-cost PERCENT] [--max-components K]",
     R"(The pair of components whose merge loses least, by Runnalls' bound of the Kullback-Leibler
 divergence, is merged until the accumulated cost reaches --max-cost percent of what collapsing the
-mixture to one component would cost. Fewer components make product sampling cheaper.
+mixture to one component would cost. Fewer components make product sampling cheaper. Lobes of media
+are merged in the same way.
 
 A reduced cache cannot be trained further: keep the file it came from.
 

@@ -89,6 +89,19 @@ TEST(MediumVolume, OfAPartOfTheBoxIsThatOfThePhotons) {
   EXPECT_NEAR(medium_volume(cell_of(half, kUnit), kUnit), 0.5, 0.01);
 }
 
+// Nine in ten photons are in a beam along x; of the others there are too few to fill all parts.
+TEST(MediumVolume, AroundABeamIsAtLeastHalfOfTheBox) {
+  const auto beam = [](const Vec3& u) -> Vec3 {
+    return u.z() < 0.9f ? Vec3(u.x(), 0.6f, 0.6f) : Vec3(u.x(), u.y(), 10 * (u.z() - 0.9f));
+  };
+  const MediumTraining cell = cell_of(beam, kUnit, 900);
+  EXPECT_FALSE(fills_box(cell));
+  EXPECT_LT(photon_volume(cell), 0.2);
+  EXPECT_EQ(medium_volume(cell, kUnit), 0.5);
+  const auto sheet = [](const Vec3& u) -> Vec3 { return {u.x(), u.y(), 0.49f + 0.02f * u.z()}; };
+  EXPECT_NEAR(medium_volume(cell_of(sheet, kUnit), kUnit), 0.02, 0.001);
+}
+
 TEST(MediumVolume, IsInheritedUntilThereArePhotonsEnough) {
   MediumTraining cell = cell_of([](const Vec3& u) { return u; }, kUnit, 20);
   EXPECT_EQ(medium_volume(cell, kUnit), 1);

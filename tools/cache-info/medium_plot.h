@@ -1,0 +1,19 @@
+#pragma once
+// Lobes of a cell of a medium as pictures of the whole sphere, on the equal-area disk about +z.
+
+#include <optional>
+#include <string>
+
+#include "libguide/math/types.h"
+#include "tools/cache-info/lobe_plot.h"
+
+namespace waylight {
+
+// "x,y,z", or nothing.
+std::optional<Vec3> parse_position(const std::string& text);
+
+// The indirect and the direct light of the cell at a position, and the photons of each beside it.
+void plot_medium(const ToolRun& run, const std::string& cache, const Vec3& position,
+                 const LobePlotArguments& arguments);
+
+}  // namespace waylight
