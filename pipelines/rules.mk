@@ -29,9 +29,10 @@
 # TIMES            seconds of the renders in the chart
 # METHODS          what to compare: render modes, or names of your own with a mode and flags, as in
 #                  METHODS='product product-8' mode_product-8=product flags_product-8='--max-depth 8'
+#                  A method gets the caches of its mode, or of the one that needs_NAME says.
 # BRDF_FIT_FLAGS PHOTON_TRACE_FLAGS CACHE_TRAIN_FLAGS CACHE_REDUCE_FLAGS RENDER_FLAGS COMPARE_FLAGS
-# REFERENCE        image to compare with; made from REFERENCE_SPP product-guided samples when it is
-#                  not set
+# REFERENCE        image to compare with; made from REFERENCE_SPP samples of REFERENCE_MODE, with
+#                  REFERENCE_FLAGS, when it is not set
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -51,6 +52,8 @@ PASSES_SPP ?= 32
 TIMES ?= 2 4 8 16
 METHODS ?= bsdf illumination product
 REFERENCE_SPP ?= 4096
+REFERENCE_MODE ?= product
+REFERENCE_FLAGS ?=
 REFERENCE ?= $(OUT)/reference.exr
 SCENE_INPUTS ?=
 QUIET ?=
@@ -76,7 +79,8 @@ $(eval $(call stamp,passes-chart,$(PASSES_SPP)))
 $(eval $(call stamp,cache-train,$(CACHE_TRAIN_FLAGS)))
 $(eval $(call stamp,cache-reduce,$(CACHE_REDUCE_FLAGS)))
 $(eval $(call stamp,render,$(SCENE_FLAGS) $(SEED) $(SIZE) $(RENDER_FLAGS)))
-$(eval $(call stamp,reference,$(SCENE_FLAGS) $(SIZE) $(REFERENCE_SPP)))
+$(eval $(call stamp,reference,$(SCENE_FLAGS) $(SIZE) $(REFERENCE_SPP) $(REFERENCE_MODE) \
+  $(REFERENCE_FLAGS)))
 $(eval $(call stamp,chart,$(METHODS) $(TIMES) $(SEEDS)))
 
 $(OUT)/scene.brdf $(OUT)/brdf-fit.json &: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/brdf-fit \
@@ -104,33 +108,36 @@ preprocess_product := $(preprocess_illumination) \
 preprocess_ris := $(preprocess_illumination)
 preprocess_mixture := $(preprocess_product)
 cache_flags = $(patsubst %.brdf,--brdf %.brdf,$(patsubst %.cache,--cache %.cache,$(1)))
-cache: $(caches_product) $(preprocess_product)
+mode_of = $(or $(mode_$(1)),$(1))
+needs_of = $(or $(needs_$(1)),$(call mode_of,$(1)))
+needs := $(sort $(foreach m,$(METHODS),$(call needs_of,$(m))))
+cache: $(foreach m,$(needs),$(caches_$(m)) $(preprocess_$(m)))
 
 # Name of an image: METHOD-SECONDSs, and its seed where that is not SEED.
 seed_suffix = $(if $(filter-out $(SEED),$(1)),-seed$(1))
 
-# $(call render_rule,method,mode,seed): images of any time and their figures.
+# $(call render_rule,method,mode,seed,needs): images of any time and their figures.
 define render_rule
 $(OUT)/$(1)-%s$(call seed_suffix,$(3)).exr $(OUT)/$(1)-%s$(call seed_suffix,$(3)).json: \
-    $(SCENE) $(SCENE_INPUTS) $$(caches_$(2)) $(OUT)/.options/render $(OUT)/.options/render-$(1) \
+    $(SCENE) $(SCENE_INPUTS) $$(caches_$(4)) $(OUT)/.options/render $(OUT)/.options/render-$(1) \
     $(BIN)/render
 	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $$(basename $$@).exr --mode $(2) \
-	  $$(call cache_flags,$$(caches_$(2))) --time $$* --size $(SIZE) --seed $(3) --aov variance \
+	  $$(call cache_flags,$$(caches_$(4))) --time $$* --size $(SIZE) --seed $(3) --aov variance \
 	  --png $$(basename $$@).png --stats $$(basename $$@).json $(flags_$(1)) $(RENDER_FLAGS) \
 	  $(QUIET)
 
 $(OUT)/$(1)-%s$(call seed_suffix,$(3)).csv: $(OUT)/$(1)-%s$(call seed_suffix,$(3)).exr \
-    $(OUT)/$(1)-%s$(call seed_suffix,$(3)).json $(REFERENCE) $$(preprocess_$(2)) \
+    $(OUT)/$(1)-%s$(call seed_suffix,$(3)).json $(REFERENCE) $$(preprocess_$(4)) \
     $(BIN)/image-compare
 	@rm -f $$@.tmp
 	$$(LAUNCH) $(BIN)/image-compare $$(basename $$@).exr $(REFERENCE) \
-	  --render-stats $$(basename $$@).json $$(preprocess_$(2):%=--preprocess-stats %) \
+	  --render-stats $$(basename $$@).json $$(preprocess_$(4):%=--preprocess-stats %) \
 	  --label scene=$(NAME) --label method=$(1) --error-image $$(basename $$@)-error.png \
 	  --csv $$@.tmp $(COMPARE_FLAGS) && mv $$@.tmp $$@
 endef
-mode_of = $(or $(mode_$(1)),$(1))
 $(foreach m,$(METHODS),$(eval $(call stamp,render-$(m),$(call mode_of,$(m)) $(flags_$(m)))) \
-  $(foreach s,$(SEEDS),$(eval $(call render_rule,$(m),$(call mode_of,$(m)),$(s)))))
+  $(foreach s,$(SEEDS),$(eval \
+    $(call render_rule,$(m),$(call mode_of,$(m)),$(s),$(call needs_of,$(m))))))
 
 renders := $(foreach m,$(METHODS),$(foreach t,$(TIMES),$(foreach s,$(SEEDS),\
   $(OUT)/$(m)-$(t)s$(call seed_suffix,$(s)))))
@@ -143,10 +150,10 @@ $(OUT)/$(NAME).csv: $(figures) $(OUT)/.options/chart
 $(OUT)/$(NAME).svg: $(OUT)/$(NAME).csv $(BIN)/chart
 	$(LAUNCH) $(BIN)/chart $< -o $@ --title "$(NAME)" $(QUIET)
 
-$(OUT)/reference.exr: $(SCENE) $(SCENE_INPUTS) $(caches_product) $(OUT)/.options/reference \
-    $(BIN)/render
-	$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $@ --mode product \
-	  $(call cache_flags,$(caches_product)) \
+$(OUT)/reference.exr: $(SCENE) $(SCENE_INPUTS) $(caches_$(REFERENCE_MODE)) \
+    $(OUT)/.options/reference $(BIN)/render
+	$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $@ --mode $(REFERENCE_MODE) \
+	  $(call cache_flags,$(caches_$(REFERENCE_MODE))) $(REFERENCE_FLAGS) \
 	  --spp $(REFERENCE_SPP) --size $(SIZE) --seed 1000003 --aov variance \
 	  --stats $(OUT)/reference.json $(QUIET)
 

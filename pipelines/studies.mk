@@ -4,15 +4,17 @@
 #                                              cache-reduce: reduction.csv, reduction.svg
 #   make -f pipelines/gap-room.mk overhead     time per path edge of product over illumination
 #                                              guiding, before and after reduction: overhead.md
-#   make -f pipelines/gap-room.mk unbiased     z-scores of every method against the first one:
-#                                              unbiased.md
+#   make -f pipelines/gap-room.mk unbiased     z-scores of every method against the first one, or
+#                                              against UNBIASED_AGAINST: unbiased.md
 #
 # THRESHOLDS       percent of the cost of collapsing to one component
 # STUDY_SPP        samples per pixel of the renders
 # UNBIASED_SPP     of the renders whose means are compared
+# UNBIASED_AGAINST image with variance that all methods are compared with, as the reference
 THRESHOLDS ?= 0 1 2 5 10 20 30 50 70 90
 STUDY_SPP ?= 32
 UNBIASED_SPP ?= 256
+UNBIASED_AGAINST ?=
 
 .PHONY: reduction overhead unbiased
 reduction: $(OUT)/reduction.svg
@@ -21,7 +23,8 @@ unbiased: $(OUT)/unbiased.md
 
 $(eval $(call stamp,study,$(SCENE_FLAGS) $(SEED) $(SIZE) $(RENDER_FLAGS) $(STUDY_SPP)))
 $(eval $(call stamp,reduction,$(THRESHOLDS)))
-$(eval $(call stamp,unbiased,$(SCENE_FLAGS) $(SIZE) $(RENDER_FLAGS) $(UNBIASED_SPP) $(METHODS)))
+$(eval $(call stamp,unbiased,$(SCENE_FLAGS) $(SIZE) $(RENDER_FLAGS) $(UNBIASED_SPP) \
+  $(UNBIASED_AGAINST) $(METHODS)))
 study_render = $(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) --spp $(STUDY_SPP) --size $(SIZE) \
   --seed $(SEED) $(RENDER_FLAGS) $(QUIET)
 $(OUT)/reduction/%.brdf $(OUT)/reduction/%.brdf.json: $(OUT)/scene.brdf $(BIN)/cache-reduce
@@ -73,23 +76,24 @@ $(OUT)/overhead/reduced.json: $(OUT)/reduced.cache $(OUT)/reduced.brdf $(OUT)/.o
 $(OUT)/overhead.md: $(foreach v,illumination naive reduced,$(OUT)/overhead/$(v).json)
 	@jq -rs --arg scene $(NAME) -f $(ROOT)/tables/overhead.jq $^ > $@.tmp && mv $@.tmp $@ && cat $@
 
-# Every method against the first, each with the variance of its own mean.
+# Every method against one image, each with the variance of its own mean.
 define unbiased_rule
-$(OUT)/unbiased/$(1).exr: $(SCENE) $(SCENE_INPUTS) $$(caches_$(2)) $(OUT)/.options/unbiased \
+$(OUT)/unbiased/$(1).exr: $(SCENE) $(SCENE_INPUTS) $$(caches_$(4)) $(OUT)/.options/unbiased \
     $(OUT)/.options/render-$(1) $(BIN)/render
 	@mkdir -p $$(@D)
 	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $$@ --mode $(2) \
-	  $$(call cache_flags,$$(caches_$(2))) --spp $(UNBIASED_SPP) --size $(SIZE) --aov variance \
+	  $$(call cache_flags,$$(caches_$(4))) --spp $(UNBIASED_SPP) --size $(SIZE) --aov variance \
 	  --seed $(3) $(flags_$(1)) $(RENDER_FLAGS) $(QUIET)
 endef
-base := $(firstword $(METHODS))
-$(foreach m,$(METHODS),$(eval \
-  $(call unbiased_rule,$(m),$(call mode_of,$(m)),$(if $(filter $(base),$(m)),77,78))))
-$(OUT)/unbiased/%.json: $(OUT)/unbiased/%.exr $(OUT)/unbiased/$(base).exr $(BIN)/image-compare
-	$(BIN)/image-compare $< $(OUT)/unbiased/$(base).exr --z self --tile 32 --json > $@.tmp
+base := $(if $(UNBIASED_AGAINST),,$(firstword $(METHODS)))
+against := $(or $(UNBIASED_AGAINST),$(OUT)/unbiased/$(base).exr)
+$(foreach m,$(METHODS),$(eval $(call unbiased_rule,$(m),$(call mode_of,$(m)),\
+  $(if $(filter $(base),$(m)),77,78),$(call needs_of,$(m)))))
+$(OUT)/unbiased/%.json: $(OUT)/unbiased/%.exr $(against) $(BIN)/image-compare
+	$(BIN)/image-compare $< $(against) --z self --tile 32 --json > $@.tmp
 	@mv $@.tmp $@
 
 others := $(filter-out $(base),$(METHODS))
 $(OUT)/unbiased.md: $(others:%=$(OUT)/unbiased/%.json) $(OUT)/.options/unbiased
-	@jq -rn --arg scene $(NAME) --arg base $(base) -f $(ROOT)/tables/unbiased.jq \
-	  $(filter %.json,$^) > $@.tmp && mv $@.tmp $@ && cat $@
+	@jq -rn --arg scene $(NAME) --arg base $(or $(base),$(basename $(notdir $(against)))) \
+	  -f $(ROOT)/tables/unbiased.jq $(filter %.json,$^) > $@.tmp && mv $@.tmp $@ && cat $@

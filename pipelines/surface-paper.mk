@@ -43,7 +43,8 @@ $(SCENES):
 	+$(call scene_make,$@)
 
 $(OUT)/equal-time.md: $(SCENES)
-	@awk -f $(ROOT)/tables/equal-time.awk $(foreach s,$(SCENES),$(OUT)/$(s)/$(s).csv) > $@.tmp
+	@awk -f $(ROOT)/tables/figures.awk -f $(ROOT)/tables/equal-time.awk \
+	  $(foreach s,$(SCENES),$(OUT)/$(s)/$(s).csv) > $@.tmp
 	@mv $@.tmp $@ && cat $@
 
 $(OUT)/preprocessing.md: $(SCENES)

@@ -1,0 +1,10 @@
+# A cloud of Walt Disney Animation Studios' data set, from a folder of scenes made elsewhere:
+#   make -f pipelines/wdas-cloud.mk WAYLIGHT_SCENES=/folder/of/scenes
+WAYLIGHT_SCENES ?= ../shared/scenes
+NAME := wdas-cloud
+SCENE := pipelines/scenes/wdas-cloud.xml
+SCENE_INPUTS = $(WAYLIGHT_SCENES)/volumes/wdas_cloud_sixteenth.vdb
+SCENE_FLAGS = -D cloud=$(abspath $(SCENE_INPUTS))
+PHOTONS ?= 1000000
+
+include $(dir $(lastword $(MAKEFILE_LIST)))media.mk
