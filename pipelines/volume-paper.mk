@@ -42,7 +42,7 @@ scene_make = $(MAKE) --no-print-directory -f $(ROOT)/$(1).mk OUT=$(OUT)/$(1) BIN
   'UNBIASED_AGAINST=$$(OUT)/reference.exr' $(options_$(1))
 
 .DELETE_ON_ERROR:
-.PHONY: all comparisons training shafts unbiased $(SCENES) $(SCENES:%=unbiased-%)
+.PHONY: all comparisons training shafts unbiased FORCE $(SCENES) $(SCENES:%=unbiased-%)
 all: comparisons training shafts unbiased
 comparisons: $(OUT)/comparisons.md
 training: $(OUT)/training.md
@@ -70,7 +70,8 @@ shafts_cache := $(OUT)/light-shafts/reduced.cache
 shafts_none := --distance standard
 shafts_distance := --distance guided --cache $(shafts_cache)
 
-$(shafts_cache): light-shafts
+$(shafts_cache): $(filter light-shafts,$(SCENES)) FORCE
+	+$(call scene_make,light-shafts) $@
 
 define shafts_rule
 $(OUT)/shafts/$(1)-%.png: $(shafts_cache) $(BIN)/render

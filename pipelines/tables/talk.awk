@@ -7,21 +7,21 @@
 function talk_row(i,  figures, base) {
   if (split(quoted[i], figures, ":") < 2) return
   split(quoted[1], base, ":")
-  printf "| the talk | %s | | %d | | %d | %s | | %s | |\n", method[i], 60 * minutes, figures[1],
+  printf "| the talk | %s | | %d | | %d | %s | | %s | |\n", shown[i], 60 * minutes, figures[1],
     figures[2], ratio(base[2], figures[2])
 }
 function row(scene, i,  key, base, n) {
-  key = scene SUBSEP method[i]; base = mean_relmse(scene SUBSEP method[1])
+  key = scene SUBSEP shown[i]; base = mean_relmse(scene SUBSEP shown[1])
   if (!(key in seeds)) return
   n = seeds[key]
-  printf "| %s | %s | %d | %.0f | %.0f | %.0f | %.3g | %.3g | %s | %s |\n", scene, method[i], n,
+  printf "| %s | %s | %d | %.0f | %.0f | %.0f | %.3g | %.3g | %s | %s |\n", scene, shown[i], n,
     time[key] / n, before[key] / n, spp[key] / n, relmse[key] / n, trimmed[key] / n,
     ratio(base, mean_relmse(key)), ratio(base, at_total_time(key))
 }
 END {
-  count = split(wanted, method, " "); split(talk, quoted, " ")
-  title = method[1]
-  for (i = 2; i <= count; ++i) title = title " → " method[i]
+  count = split(wanted, shown, " "); split(talk, quoted, " ")
+  title = shown[1]
+  for (i = 2; i <= count; ++i) title = title " → " shown[i]
   printf "### %s\n\n", title
   print "| scene | method | seeds | seconds | training | SPP | relMSE | trimmed | ÷ | ÷ with training |"
   print "|---|---|---|---|---|---|---|---|---|---|"

@@ -9,16 +9,16 @@ printf '|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n'
 for folder in "$@"; do
   jq -rn --arg scene "$(basename "$folder")" --slurpfile trace "$folder/photon-trace.json" \
     --slurpfile train "$folder/cache-train.json" \
-    --slurpfile reduce "$folder/cache-reduce-cache.json" '
+    --slurpfile reduction "$folder/cache-reduce-cache.json" '
     def digits($n): . * pow(10; $n) | round / pow(10; $n);
     def millions: . / 1e6 | digits(2) | tostring + " M";
-    $trace[0] as $trace | $train[0] as $train | $reduce[0] as $reduce |
+    $trace[0] as $trace | $train[0] as $train | $reduction[0] as $reduction |
     ($trace.stored + $trace.in_media) as $photons |
     [$scene, ($trace.emitted | millions), ($trace.stored | millions), ($trace.in_media | millions),
      ($trace.seconds | digits(1)), ($photons / $trace.seconds | millions),
      ($train.seconds | digits(1)), ($photons / $train.seconds | millions),
-     ($reduce.seconds | digits(1)), $train.cells, $train.media.cells // 0,
-     ($reduce.media.components_before // 0 | digits(2)),
-     ($reduce.media.components_after // 0 | digits(2)), ($reduce.bytes_after / 1e6 | digits(2))]
+     ($reduction.seconds | digits(1)), $train.cells, $train.media.cells // 0,
+     ($reduction.media.components_before // 0 | digits(2)),
+     ($reduction.media.components_after // 0 | digits(2)), ($reduction.bytes_after / 1e6 | digits(2))]
     | "| " + (map(tostring) | join(" | ")) + " |"'
 done

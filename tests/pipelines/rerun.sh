@@ -15,7 +15,7 @@ cd "$work" || exit 1
 # The tools are links with a fixed old date, so that a build that goes on at the same time does not
 # look like a change.
 mkdir bin
-for tool in brdf-fit photon-trace cache-train cache-reduce render image-compare chart; do
+for tool in brdf-fit photon-trace cache-train cache-reduce render image-compare chart make-cloud; do
   printf '#!/bin/sh\nexec "%s/%s" "$@"\n' "$bin" "$tool" > "bin/$tool"
   chmod +x "bin/$tool"
   touch -d 2001-01-01 "bin/$tool"
@@ -133,6 +133,25 @@ done
 [[ $(wc -l < out/paper/gap-room/reduction.csv) == 3 && -s out/paper/gap-room/reduction.svg ]] ||
   { echo "FAIL surface-paper: no study of reduction"; ((++failures)); }
 
+small=(SCENES='smoky-room cloud' TIME=0.05 SEEDS=1 BIN=bin OUT=out/volume SIZE=32x18
+       METHODS='none direction both splitting all' SHAFTS_SIZE=32x18 SHAFTS_SPP=2 QUIET=-q)
+for scene in smoky-room cloud light-shafts; do
+  small+=("options_$scene=PHOTONS=2000 REFERENCE_SPP=4 UNBIASED_SPP=4")
+done
+if ! make --no-print-directory -f pipelines/volume-paper.mk "${small[@]}" > log 2>&1; then
+  echo "FAIL volume-paper: make failed"; cat log; ((++failures))
+fi
+for scene in smoky-room cloud; do
+  for table in comparisons:8 training:1 unbiased:5; do
+    [[ $(grep -c "^| $scene" "out/volume/${table%:*}.md") == "${table#*:}" ]] ||
+      { echo "FAIL volume-paper: not ${table#*:} rows of $scene in ${table%:*}.md"; ((++failures)); }
+  done
+done
+for image in none-2 distance-2; do
+  [[ -s out/volume/shafts/$image.png ]] ||
+    { echo "FAIL volume-paper: no light shafts $image"; ((++failures)); }
+done
+
 # The other pipelines, once and not again.
 others=(jewelry)
 [[ -n ${WAYLIGHT_SCENES:-} ]] && others+=(veach-ajar kitchenette living-room)
@@ -140,6 +159,20 @@ for pipeline in "${others[@]}"; do
   once=(TIMES=0.05 'METHODS=bsdf illumination product')
   must_run "${once[@]}"
   expect "a clean start" "$everything"
+  must_run "${once[@]}"
+  expect "a second run" ""
+done
+
+# Those of media, which need no fits of BRDFs.
+in_media="cache-reduce cache-train chart image-compare photon-trace render"
+others=(light-shafts haze lamp-behind backlit-wax smoky-room cloud)
+[[ -n ${WAYLIGHT_SCENES:-} ]] && others+=(wdas-cloud)
+for pipeline in "${others[@]}"; do
+  once=(TIMES=0.05 METHODS='none both' PHOTONS=3000)
+  makes=$in_media
+  [[ $pipeline == cloud ]] && makes=${in_media/photon-trace/make-cloud photon-trace}
+  must_run "${once[@]}"
+  expect "a clean start" "$makes"
   must_run "${once[@]}"
   expect "a second run" ""
 done
