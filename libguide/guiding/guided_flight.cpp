@@ -15,8 +15,8 @@ struct Masses {
 
 struct Bin {
   float t0, t1;
-  Color sigma;              // what the processes go by
-  Masses scatter, survive;  // of the masses that reached the bin
+  Color sigma;     // what the processes go by
+  Masses scatter;  // of the masses that reached the bin
 
   // Density of the place s behind t0, given that a process of each channel scatters here.
   Color place_pdf(float s) const {
@@ -29,27 +29,37 @@ struct Bin {
   }
 };
 
-// Walks the bins of a flight.
+// 1 - e^-x; media of one colour are the rule, and one exponential is then enough.
+Color attenuated_share(const Color& x) {
+  if (x[0] == x[1] && x[1] == x[2]) return Color::Constant(1 - std::exp(-x[0]));
+  return 1 - (-x).exp();
+}
+
+// Walks the bins of a flight: what blocks of extinction and cells of the cache have in common.
 class BinWalk {
  public:
   BinWalk(const FlightSpace& space, float standard_share)
       : space_(space),
+        homogeneous_(space.medium.homogeneous()),
         blocks_(space.medium.walk(space.ray, std::min(space.t_max, kFar))),
+        cells_(space.guides.walk(space.ray, std::min(space.t_max, kFar))),
         masses_{standard_share * space.channels, (1 - standard_share) * space.channels} {}
 
   // False at the end; masses() is then the probability to pass.
   bool next(Bin& bin) {
-    while (!(t_ < block_.t1)) {
-      if (!blocks_.next(block_)) return false;
-      t_ = block_.t0;
-    }
-    bin.t0 = t_;
-    bin.t1 = block_.t1;
-    const MediumGuide& guide = space_.guides.along(space_.index, space_.ray, t_, bin.t1);
-    t_ = bin.t1 = std::max(bin.t1, std::nextafter(bin.t0, kInfinity));
+    do {
+      if (t_ >= block_.t1) {
+        if (!blocks_.next(block_)) return false;
+        t_ = block_.t0;
+      }
+      while (cell_.t1 <= t_)
+        if (!cells_.next(cell_)) return false;
+      bin.t0 = t_;
+      bin.t1 = t_ = std::min(block_.t1, cell_.t1);
+    } while (!(bin.t1 > bin.t0));
     const MediumCoefficients here = space_.medium.at(space_.ray(bin.t0));
-    bin.sigma = space_.medium.homogeneous() ? here.sigma_t : Color::Constant(block_.mean);
-    scatter(bin, ratio(guide, luminance(here.albedo)));
+    bin.sigma = homogeneous_ ? here.sigma_t : Color::Constant(block_.mean);
+    scatter(bin, ratio(space_.guides.guide(space_.index, cell_.cell), luminance(here.albedo)));
     return true;
   }
   const Masses& masses() const { return masses_; }
@@ -64,7 +74,7 @@ class BinWalk {
     return std::isfinite(ratio) ? ratio : 1;
   }
   void scatter(Bin& bin, float ratio) {
-    const Color standard = 1 - (-bin.sigma * (bin.t1 - bin.t0)).exp();
+    const Color standard = attenuated_share(bin.sigma * (bin.t1 - bin.t0));
     const Color guided = (ratio * standard).min(kMaxScatterProb);
     bin.scatter = {masses_.standard * standard, masses_.guided * guided};
     masses_.standard -= bin.scatter.standard;
@@ -72,8 +82,11 @@ class BinWalk {
   }
 
   const FlightSpace& space_;
+  bool homogeneous_;
   BlockWalk blocks_;
   RayBlock block_;
+  LeafWalk cells_;
+  LeafSpan cell_;
   float t_ = 0;
   Masses masses_;
 };

@@ -7,6 +7,7 @@
 #include "libguide/cache/medium_cache_view.h"
 #include "libguide/directional/vmf_convolution.h"
 #include "libguide/medium/medium.h"
+#include "libguide/spatial/leaf_walk.h"
 
 namespace waylight {
 
@@ -53,16 +54,12 @@ class MediumGuides {
   const MediumGuide& at(int medium, const Vec3& p) const {
     return guide(medium, find_leaf(nodes_, p, Vec3::UnitZ()));
   }
-  // At distance t of the ray; t_exit: how far along the ray the cell reaches, not less than t.
-  const MediumGuide& along(int medium, const Ray& ray, float t, float& t_exit) const {
-    return guide(medium, find_leaf_along(nodes_, ray, t, t_exit));
-  }
-
- private:
+  LeafWalk walk(const Ray& ray, float t_max) const { return LeafWalk(nodes_, ray, t_max); }
   const MediumGuide& guide(int medium, uint32_t cell) const {
     return guides_[phase_of_medium_[medium] * cells_ + cell];
   }
 
+ private:
   std::span<const CacheNode> nodes_;
   size_t cells_ = 0;
   std::vector<int> phase_of_medium_;

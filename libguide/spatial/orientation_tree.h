@@ -38,21 +38,4 @@ inline uint32_t find_leaf(std::span<const CacheNode> nodes, const Vec3& position
   return node->child;
 }
 
-// The same for the point at distance t of a ray, in a tree that splits no normal axis. t_exit comes
-// in as the ray's end and goes out as the end of the cell where that is nearer, at least t.
-inline uint32_t find_leaf_along(std::span<const CacheNode> nodes, const Ray& ray, float t,
-                                float& t_exit) {
-  const Vec3 point = ray(t);
-  const CacheNode* node = nodes.data();
-  while (node->axis != kLeafAxis) {
-    const float d = ray.direction[node->axis], below = node->split - point[node->axis];
-    const float distance = below / d;  // infinite or NaN where the ray is parallel
-    if (distance > 0 && t + distance < t_exit) t_exit = t + distance;
-    // On the plane itself the side that the ray goes to counts, lest it never leave the cell.
-    const bool second = below < 0 || (below == 0 && d >= 0);
-    node = nodes.data() + node->child + (second ? 1 : 0);
-  }
-  return node->child;
-}
-
 }  // namespace waylight

@@ -22,7 +22,9 @@ inline Trained train(const Scene& scene, uint64_t photons) {
   options.photons_per_cell = 1000;
   options.direct = DirectLight::drop;  // next-event estimation has it; kept, it costs 15 %
   CacheTrainer trainer(options, {scene.bounds(), photons, 0});
-  trace_photons(scene, trace, [&](std::span<const Photon> batch) { trainer.consume(batch); }, {});
+  trace_photons(
+      scene, trace, [&](std::span<const Photon> batch) { trainer.consume(batch); }, {}, {}, {},
+      [&](std::span<const MediumPhoton> batch) { trainer.consume(batch); });
   BrdfFitOptions fit;
   fit.elevations = 32;
   return {fit_brdfs(scene.description(), fit, {}).cache, trainer.finish(nullptr)};
