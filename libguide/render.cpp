@@ -75,9 +75,19 @@ void require_caches(const RenderCaches& caches, const RenderOptions& options) {
           "all modes but bsdf, and guided decisions in media, need --cache with at least one "
           "trained cell");
   require(!insists_on_media(options) || !guide.medium.cells.empty(),
-          "--distance guided and --direction mixture and product need a cache of media: train it "
-          "on photons of a scene that has some");
+          "--distance guided and probability, and --direction mixture and product, need a cache of "
+          "media: train it on photons of a scene that has some");
   require(!needs_fits(options.mode) || caches.brdf, "--mode product and mixture need --brdf");
+}
+
+void warn_of_fallback(const Scene& scene, const RenderOptions& options, const RunControl& control) {
+  if (options.distance != DistanceMode::equiangular) return;
+  const int media = static_cast<int>(scene.description().media.size());
+  for (int i = 0; i < media; ++i)
+    if (!scene.medium(i).homogeneous())
+      return control.warn(
+          "--distance equiangular is for homogeneous media: distances in the others are sampled by "
+          "the standard method");
 }
 
 std::span<const Medium> guided_media(const Scene& scene, const RenderOptions& options) {
@@ -259,6 +269,7 @@ Image render(const Scene& scene, const RenderCaches& caches, const RenderOptions
              RenderSummary* summary, const RunControl& control) {
   options.validate();
   require_caches(caches, options);
+  warn_of_fallback(scene, options, control);
   Renderer renderer(scene, caches, options, control);
   renderer.run();
   const RenderSummary result = summarize(renderer);

@@ -26,8 +26,10 @@ enum class ShareRule { automatic, fixed, learned };
 
 // The decisions in media [Herholz et al. 2019]: where along a ray a path scatters, and in what
 // direction. automatic: guided, directions by the product, in all modes but bsdf where the cache
-// holds media.
-enum class DistanceMode { automatic, standard, guided };
+// holds media. The other distances are there to be compared with (guiding/flights.h): the guide
+// decides whether a path scatters only; near lights, in homogeneous media; by a multiple of the
+// extinction.
+enum class DistanceMode { automatic, standard, guided, probability, equiangular, exponential };
 enum class PhaseMode { automatic, standard, mixture, product };
 
 // automatic: guided where the mode has a cache, by throughput in mode bsdf.
@@ -49,6 +51,7 @@ struct RenderOptions {
   int max_depth = -2;  // path edges; -1 no limit, -2 the scene's
   int rr_depth = -1;   // path edges before Russian roulette; -1 the scene's
   DistanceMode distance = DistanceMode::automatic;
+  float distance_bias = 0.5f;  // of distance `exponential`: factor of the extinction, (0, 10]
   PhaseMode direction = PhaseMode::automatic;
   RouletteMode roulette = RouletteMode::automatic;
   int split = 1;  // copies that guided roulette may make of a path at one vertex, 1 .. 20

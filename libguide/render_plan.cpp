@@ -30,20 +30,34 @@ PhaseGuide phase_guide_of(const RenderOptions& options) {
   return guided ? PhaseGuide::product : PhaseGuide::none;
 }
 
-bool guides_distances(const RenderOptions& options) {
-  if (options.distance != DistanceMode::automatic) return options.distance == DistanceMode::guided;
-  return options.mode != RenderMode::bsdf;
+FlightMethod flight_of(const RenderOptions& options) {
+  switch (options.distance) {
+    case DistanceMode::standard:
+      return FlightMethod::standard;
+    case DistanceMode::guided:
+      return FlightMethod::guided;
+    case DistanceMode::probability:
+      return FlightMethod::probability;
+    case DistanceMode::equiangular:
+      return FlightMethod::equiangular;
+    case DistanceMode::exponential:
+      return FlightMethod::exponential;
+    case DistanceMode::automatic:
+      break;
+  }
+  return options.mode == RenderMode::bsdf ? FlightMethod::standard : FlightMethod::guided;
 }
 
 }  // namespace
 
 bool guides_media(const RenderOptions& options) {
-  return guides_distances(options) || phase_guide_of(options) != PhaseGuide::none ||
+  return needs_guides(flight_of(options)) || phase_guide_of(options) != PhaseGuide::none ||
          roulette_of(options) == Roulette::guided;
 }
 
 bool insists_on_media(const RenderOptions& options) {
-  return options.distance == DistanceMode::guided || options.direction == PhaseMode::mixture ||
+  return options.distance == DistanceMode::guided ||
+         options.distance == DistanceMode::probability || options.direction == PhaseMode::mixture ||
          options.direction == PhaseMode::product;
 }
 
@@ -75,6 +89,8 @@ void RenderOptions::validate() const {
       "--size must be WIDTHxHEIGHT with both in [1, 65536]");
   require(max_depth >= -2 && max_depth != 0, "--max-depth must be at least 1, or -1 for no limit");
   require(rr_depth >= -1, "--rr-depth must not be negative");
+  require(distance_bias > 0 && distance_bias <= 10, "--distance-bias must be in (0, 10], not {}",
+          distance_bias);
   require(split >= 1 && split <= kMaxSplit, "--split must be in [1, {}], not {}", kMaxSplit, split);
   require(split == 1 || roulette_of(*this) == Roulette::guided,
           "--split needs guided roulette: --rr guided, or a mode other than bsdf");
@@ -104,7 +120,8 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
       options.share_rule == ShareRule::fixed ? options.bsdf_share : default_share(options.mode);
   result.directions.candidates = options.candidates;
   result.phases.guide = phase_guide_of(options);
-  result.guided_flights = guides_distances(options);
+  result.flight = flight_of(options);
+  result.flights.bias = options.distance_bias;
   result.roulette = roulette_of(options);
   result.max_split = options.split;
   result.max_depth = options.max_depth == -2 ? defaults.max_depth : options.max_depth;

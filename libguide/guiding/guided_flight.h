@@ -2,26 +2,9 @@
 // Guided product distance sampling: whether and where a flight through a medium scatters
 // [Herholz et al. 2019].
 
-#include "libguide/guiding/medium_guides.h"
-#include "libguide/medium/medium_tracker.h"
+#include "libguide/guiding/flight_space.h"
 
 namespace waylight {
-
-struct FlightOptions {
-  float standard_share = 0.25f;  // of flights that ignore the guide, in (0, 1]
-};
-
-// What a flight is through. with_direct: whether light straight from emitters counts at the end of
-// the ray; it does not where next-event estimation at the ray's origin samples it.
-struct FlightSpace {
-  const MediumTracker& medium;
-  const MediumGuides& guides;
-  int index;  // of the medium
-  Ray ray;
-  float t_max;
-  Color channels;  // probabilities of the colour channels, which sum to 1
-  bool with_direct;
-};
 
 // The density over distance of one flight, worked off bin by bin until the event. Bins are what the
 // ray has in one block of extinction and one cell of the cache. In a bin of extinction s and length

@@ -137,12 +137,13 @@ std::optional<MediumPoint> PathTracer::fly(State& state, float t_max, float cros
 // Light straight from emitters counts at the end of a flight where no next-event estimation at its
 // start has sampled it.
 Flight PathTracer::flight(State& state, const MediumTracker& medium, float t_max) const {
-  if (!options_.guided_flights || caches_.media().empty())
+  const FlightMethod method = options_.flight;
+  if (method == FlightMethod::standard || (needs_guides(method) && caches_.media().empty()))
     return medium.fly(state.ray, t_max, state.throughput, state.sampler);
   const Color channels = channel_probs(state.throughput);
   const FlightSpace space{medium, caches_.media(), state.medium,  state.ray,
                           t_max,  channels,        state.specular};
-  return GuidedFlight(space, options_.flights).sample(state.sampler);
+  return sample_flight(method, scene_, space, options_.flights, state.sampler);
 }
 
 bool PathTracer::too_deep(const State& state) const {

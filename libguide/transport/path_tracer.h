@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "libguide/base/sampler.h"
-#include "libguide/guiding/guided_flight.h"
+#include "libguide/guiding/flights.h"
 #include "libguide/guiding/phase_sampler.h"
 #include "libguide/scene/scene.h"
 #include "libguide/transport/path_vertex.h"
@@ -27,7 +27,7 @@ inline constexpr int kMaxSplit = 20, kMaxWaiting = 32, kMaxCopies = 64;
 struct PathTracerOptions {
   DirectionOptions directions;
   PhaseOptions phases;
-  bool guided_flights = false;
+  FlightMethod flight = FlightMethod::standard;  // also where those that need guides have none
   FlightOptions flights;
   Roulette roulette = Roulette::throughput;
   int max_split = 1;           // copies at one vertex under guided roulette, 1 .. kMaxSplit

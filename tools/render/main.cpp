@@ -18,6 +18,11 @@ and the fitted BSDF (--cache and --brdf); mixture: from the mean of the two inst
 --candidates from BSDF and cache, the one that BSDF times light favours. All have the same mean;
 caches change the noise alone.
 
+Distances in media. standard: by extinction. guided: by the light along the ray (--cache).
+probability: the guide decides only whether a path scatters (--cache). equiangular: near lights, in
+homogeneous media. exponential: by extinction times --distance-bias. The last three are there to be
+compared with guided.
+
 The render ends at the first of --spp, --time and --error (relMSE, as estimated from the image's own
 variance); without any it takes 64 samples per pixel. Ctrl-C writes what there is.
 

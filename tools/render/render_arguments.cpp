@@ -1,5 +1,7 @@
 #include "tools/render/render_arguments.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -13,7 +15,8 @@ constexpr int kDefaultSpp = 64;
 // In the order of RenderMode.
 const std::vector<std::string> kModes = {"bsdf", "illumination", "mixture", "product", "ris"};
 // In the order of DistanceMode and PhaseMode.
-const std::vector<std::string> kDistances = {"auto", "standard", "guided"};
+const std::vector<std::string> kDistances = {"auto",        "standard",    "guided",
+                                             "probability", "equiangular", "exponential"};
 const std::vector<std::string> kPhases = {"auto", "standard", "mixture", "product"};
 // In the order of RouletteMode.
 const std::vector<std::string> kRoulettes = {"auto", "none", "throughput", "guided"};
@@ -98,6 +101,9 @@ void add_media(CLI::App& app, RenderOptions& options) {
       app, "--distance", kDistances,
       [&options](size_t i) { options.distance = static_cast<DistanceMode>(i); },
       "In media, where along a ray to scatter; auto: guided in all modes but bsdf");
+  app.add_option("--distance-bias", options.distance_bias,
+                 "Factor of the extinction that half of the distances go by with --distance "
+                 "exponential, up to 10");
   add_choice(
       app, "--direction", kPhases,
       [&options](size_t i) { options.direction = static_cast<PhaseMode>(i); },
@@ -153,6 +159,8 @@ std::string method_name(const RenderOptions& options) {
   std::string name = mode_name(options.mode);
   if (options.distance != DistanceMode::automatic)
     name += ", distance " + kDistances[static_cast<size_t>(options.distance)];
+  if (options.distance == DistanceMode::exponential)
+    name += fmt::format(" {:g}", options.distance_bias);
   if (options.direction != PhaseMode::automatic)
     name += ", direction " + kPhases[static_cast<size_t>(options.direction)];
   if (options.roulette != RouletteMode::automatic)

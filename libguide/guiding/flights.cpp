@@ -1,0 +1,40 @@
+#include "libguide/guiding/flights.h"
+
+#include "libguide/guiding/biased_flight.h"
+#include "libguide/guiding/equiangular_flight.h"
+#include "libguide/guiding/guided_flight.h"
+#include "libguide/guiding/probability_flight.h"
+
+namespace waylight {
+namespace {
+
+Flight standard_flight(const FlightSpace& space, Sampler& sampler) {
+  return space.medium.fly(space.ray, space.t_max, space.channels, sampler);
+}
+
+Flight equiangular_flight(const Scene& scene, const FlightSpace& space, Sampler& sampler) {
+  if (!space.medium.homogeneous()) return standard_flight(space, sampler);
+  const std::optional<Vec3> light = light_point(scene, space, sampler);
+  return light ? EquiangularFlight(space, *light).sample(sampler) : standard_flight(space, sampler);
+}
+
+}  // namespace
+
+Flight sample_flight(FlightMethod method, const Scene& scene, const FlightSpace& space,
+                     const FlightOptions& options, Sampler& sampler) {
+  switch (method) {
+    case FlightMethod::guided:
+      return GuidedFlight(space, options).sample(sampler);
+    case FlightMethod::probability:
+      return ProbabilityFlight(space, options).sample(sampler);
+    case FlightMethod::equiangular:
+      return equiangular_flight(scene, space, sampler);
+    case FlightMethod::exponential:
+      return BiasedFlight(space, options).sample(sampler);
+    case FlightMethod::standard:
+      break;
+  }
+  return standard_flight(space, sampler);
+}
+
+}  // namespace waylight
