@@ -4,6 +4,7 @@
 #include "libguide/guiding/equiangular_flight.h"
 #include "libguide/guiding/guided_flight.h"
 #include "libguide/guiding/probability_flight.h"
+#include "libguide/guiding/tracked_flight.h"
 
 namespace waylight {
 namespace {
@@ -24,7 +25,8 @@ Flight sample_flight(FlightMethod method, const Scene& scene, const FlightSpace&
                      const FlightOptions& options, Sampler& sampler) {
   switch (method) {
     case FlightMethod::guided:
-      return GuidedFlight(space, options).sample(sampler);
+      return space.medium.homogeneous() ? GuidedFlight(space, options).sample(sampler)
+                                        : TrackedFlight(space, options).sample(sampler);
     case FlightMethod::probability:
       return ProbabilityFlight(space, options).sample(sampler);
     case FlightMethod::equiangular:

@@ -3,29 +3,30 @@
 namespace waylight {
 namespace {
 
-constexpr float kMaxScatterProb = 0.999f;
 constexpr float kFar = 1e30f;  // keeps 0 times infinity out
+constexpr int kMaxBins = 96;
+constexpr float kFaint = 1e-6f;  // share of light that is left where bins are no longer told apart
 
-// The remaining probability of each channel's standard and guided process.
-struct Masses {
-  Color standard, guided;
-
-  float sum() const { return (standard + guided).sum(); }
-};
-
+// What the ray has in one block of extinction and one cell of the cache.
 struct Bin {
   float t0, t1;
   Color sigma;     // what the processes go by
-  Masses scatter;  // of the masses that reached the bin
+  float source;    // albedo Li
+  Color standard;  // mass of the standard process here, by channel
+  Color scatter;   // and of the mixture of both
 
+  float length() const { return t1 - t0; }
   // Density of the place s behind t0, given that a process of each channel scatters here.
   Color place_pdf(float s) const {
-    const Color depth = sigma * (t1 - t0);
+    const Color depth = sigma * length();
     return (depth > 1e-4f)
-        .select(sigma * (-sigma * s).exp() / (1 - (-depth).exp()), Color::Constant(1 / (t1 - t0)));
+        .select(sigma * (-sigma * s).exp() / (1 - (-depth).exp()), Color::Constant(1 / length()));
   }
-  float pdf(float t) const {
-    return ((scatter.standard + scatter.guided) * place_pdf(t - t0)).sum();
+  float pdf(float t) const { return (scatter * place_pdf(t - t0)).sum(); }
+  void append(const Bin& bin) {
+    const float both = bin.t1 - t0;
+    sigma = (sigma * length() + bin.sigma * bin.length()) / both;
+    t1 = bin.t1;
   }
 };
 
@@ -38,14 +39,12 @@ Color attenuated_share(const Color& x) {
 // Walks the bins of a flight: what blocks of extinction and cells of the cache have in common.
 class BinWalk {
  public:
-  BinWalk(const FlightSpace& space, float standard_share)
+  explicit BinWalk(const FlightSpace& space)
       : space_(space),
-        homogeneous_(space.medium.homogeneous()),
         blocks_(space.medium.walk(space.ray, std::min(space.t_max, kFar))),
-        cells_(space.guides.walk(space.ray, std::min(space.t_max, kFar))),
-        masses_{standard_share * space.channels, (1 - standard_share) * space.channels} {}
+        cells_(space.guides.walk(space.ray, std::min(space.t_max, kFar))) {}
 
-  // False at the end; masses() is then the probability to pass.
+  // False at the end. A cell that is not known takes after the one before.
   bool next(Bin& bin) {
     do {
       if (t_ >= block_.t1) {
@@ -58,42 +57,76 @@ class BinWalk {
       bin.t1 = t_ = std::min(block_.t1, cell_.t1);
     } while (!(bin.t1 > bin.t0));
     const MediumCoefficients here = space_.medium.at(space_.ray(bin.t0));
-    bin.sigma = homogeneous_ ? here.sigma_t : Color::Constant(block_.mean);
-    scatter(bin, ratio(space_.guides.guide(space_.index, cell_.cell), luminance(here.albedo)));
+    bin.sigma = space_.medium.homogeneous() ? here.sigma_t : Color::Constant(block_.mean);
+    const MediumGuide& guide = space_.guides.guide(space_.index, cell_.cell);
+    if (guide.known()) scattered_ = guide.scattered(space_.ray.direction);
+    bin.source = luminance(here.albedo) * scattered_;
     return true;
   }
-  const Masses& masses() const { return masses_; }
+  // Radiance that the last cell sees along the ray.
+  float end_radiance() const {
+    const MediumGuide& guide = space_.guides.guide(space_.index, cell_.cell);
+    return guide.known() ? guide.incident(space_.ray.direction, space_.with_direct) : scattered_;
+  }
 
  private:
-  // albedo Li / L, or 1 where it is not known.
-  float ratio(const MediumGuide& guide, float albedo) const {
-    if (!guide.known()) return 1;
-    const Vec3& w = space_.ray.direction;
-    const float incident = guide.incident(w, space_.with_direct);
-    const float ratio = albedo * guide.scattered(w) / incident;
-    return std::isfinite(ratio) ? ratio : 1;
-  }
-  void scatter(Bin& bin, float ratio) {
-    const Color standard = attenuated_share(bin.sigma * (bin.t1 - bin.t0));
-    const Color guided = (ratio * standard).min(kMaxScatterProb);
-    bin.scatter = {masses_.standard * standard, masses_.guided * guided};
-    masses_.standard -= bin.scatter.standard;
-    masses_.guided -= bin.scatter.guided;
-  }
-
   const FlightSpace& space_;
-  bool homogeneous_;
   BlockWalk blocks_;
   RayBlock block_;
   LeafWalk cells_;
   LeafSpan cell_;
   float t_ = 0;
-  Masses masses_;
+  float scattered_ = 0;  // Li where it was known last
 };
+
+}  // namespace
+
+// All bins of a flight, with their masses.
+struct GuidedFlight::Plan {
+  Plan(const FlightSpace& space, float standard_share) {
+    BinWalk walk(space);
+    for (Bin bin; walk.next(bin);) add(bin, space.channels);
+    weigh(space.channels, standard_share, walk.end_radiance());
+  }
+
+  int count = 0;
+  std::array<Bin, kMaxBins> bins;
+  Color pass = Color::Zero();
+
+ private:
+  void add(const Bin& bin, const Color& channels) {
+    const bool faint = (left * channels).sum() < kFaint;
+    if (count == kMaxBins || (faint && count > 0))
+      bins[count - 1].append(bin);
+    else
+      bins[count++] = bin;
+    if (!faint) left *= 1 - attenuated_share(bin.sigma * bin.length());
+  }
+
+  void weigh(const Color& channels, float share, float end_radiance) {
+    Color mass = channels;
+    float sum = 0;
+    for (int i = 0; i < count; ++i) {
+      bins[i].standard = mass * attenuated_share(bins[i].sigma * bins[i].length());
+      mass -= bins[i].standard;
+      sum += bins[i].source * bins[i].standard.sum();
+    }
+    sum += end_radiance * mass.sum();
+    const bool knows = sum > 0 && std::isfinite(sum);
+    const float standard = knows ? share : 1.0f, guided = knows ? (1 - share) / sum : 0.0f;
+    for (int i = 0; i < count; ++i)
+      bins[i].scatter = bins[i].standard * (standard + guided * bins[i].source);
+    pass = mass * (standard + guided * end_radiance);
+  }
+
+  Color left = Color::Ones();
+};
+
+namespace {
 
 // By the truncated exponential of one channel, chosen by its share of the bin's mass.
 float place_in(const Bin& bin, float u, float u_channel) {
-  const Color mass = bin.scatter.standard + bin.scatter.guided;
+  const Color& mass = bin.scatter;
   float left = u_channel * mass.sum();
   int channel = 0;
   while (channel < 2 && left >= mass[channel]) left -= mass[channel++];
@@ -109,8 +142,9 @@ Flight GuidedFlight::sample(Sampler& sampler) const {
   double left = sampler.next();
   const Vec2 u = sampler.next_2d();
   RandomStream random(sampler);
-  BinWalk bins(space_, options_.standard_share);
-  for (Bin bin; bins.next(bin);) {
+  const Plan plan(space_, options_.standard_share);
+  for (int i = 0; i < plan.count; ++i) {
+    const Bin& bin = plan.bins[i];
     left -= bin.scatter.sum();
     if (left >= 0) continue;
     const float t = place_in(bin, u.x(), u.y());
@@ -119,21 +153,16 @@ Flight GuidedFlight::sample(Sampler& sampler) const {
     return {t, true, transmittance * here.sigma_t / bin.pdf(t), here};
   }
   const Color transmittance = space_.medium.transmittance(space_.ray, space_.t_max, random);
-  return {space_.t_max, false, transmittance / bins.masses().sum(), {}};
+  return {space_.t_max, false, transmittance / plan.pass.sum(), {}};
 }
 
 float GuidedFlight::pdf(float t) const {
-  BinWalk bins(space_, options_.standard_share);
-  for (Bin bin; bins.next(bin);)
-    if (t >= bin.t0 && t < bin.t1) return bin.pdf(t);
+  const Plan plan(space_, options_.standard_share);
+  for (int i = 0; i < plan.count; ++i)
+    if (t >= plan.bins[i].t0 && t < plan.bins[i].t1) return plan.bins[i].pdf(t);
   return 0;
 }
 
-float GuidedFlight::pass_prob() const {
-  BinWalk bins(space_, options_.standard_share);
-  for (Bin bin; bins.next(bin);) {
-  }
-  return bins.masses().sum();
-}
+float GuidedFlight::pass_prob() const { return Plan(space_, options_.standard_share).pass.sum(); }
 
 }  // namespace waylight

@@ -6,17 +6,21 @@
 
 namespace waylight {
 
-// The density over distance of one flight, worked off bin by bin until the event. Bins are what the
-// ray has in one block of extinction and one cell of the cache. In a bin of extinction s and length
-// d the guided process scatters with probability
-//   P = (1 - e^(-s d)) albedo Li / L,
-// Li the radiance scattered towards the camera and L the radiance that comes along the ray, both at
-// the start of the bin; the standard process with 1 - e^(-s d). Within a bin, both place the event
-// by the truncated exponential. One process is chosen per flight, and one channel, whose extinction
-// it goes by; the density is the sum over them all. So the weight of a flight is at most
+// The density over distance of one flight. Bins are what the ray has in one block of extinction and
+// one cell of the cache. The standard process reaches and scatters in bin i with probability
+//   m_i = T(0, t_i) (1 - e^(-s d))
+// for extinction s and length d; the guided one with
+//   m_i albedo Li / sum,
+// Li the radiance scattered towards the camera as the cell of the bin has it. It passes with
+// T(0, t_max) L / sum, L the radiance that the last cell sees along the ray. Herholz et al. decide
+// bin by bin, against the L of each bin's own cell: then what one cell has too low ends the flight
+// in it, and thin media, where light from behind is mostly none, suffer; the sum over the ray needs
+// no cell to agree with the others about what is behind. Within a bin, both processes place the
+// event by the truncated exponential. One process is chosen per flight, and one channel, whose
+// extinction it goes by; the density is the sum over them all. So the weight of a flight is at most
 // 1 / standard_share times that of the standard process alone, whatever the cache says.
-// In media that vary, s is the mean of the block: the density is still exact, and the transmittance
-// in the weight an unbiased estimate.
+// For homogeneous media; in others the mean of the block stands for the extinction, which is exact
+// too but puts events where a block is empty: see TrackedFlight.
 class GuidedFlight {
  public:
   GuidedFlight(const FlightSpace& space, const FlightOptions& options)
@@ -28,6 +32,8 @@ class GuidedFlight {
   float pass_prob() const;
 
  private:
+  struct Plan;
+
   const FlightSpace& space_;
   FlightOptions options_;
 };

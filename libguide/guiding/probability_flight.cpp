@@ -1,6 +1,7 @@
 #include "libguide/guiding/probability_flight.h"
 
 #include "libguide/guiding/guided_flight.h"
+#include "libguide/medium/tentative_collisions.h"
 
 namespace waylight {
 namespace {
@@ -13,8 +14,6 @@ struct Standard {
   float scatter_mass = 0;
   Color pass_weight = Color::Ones();
 };
-
-float exponential_distance(float u) { return -std::log1p(-u); }
 
 Color homogeneous_transmittance(const FlightSpace& space, float t) {
   return (-space.medium.at(space.ray.origin).sigma_t * std::min(t, kFar)).exp();
@@ -52,17 +51,11 @@ class Sweep {
   Sweep(const FlightSpace& space, Sampler& sampler) : space_(space), random_(sampler) {}
 
   Standard run() {
-    float depth = exponential_distance(random_.next());  // optical, left until the next collision
-    BlockWalk blocks = space_.medium.walk(space_.ray, space_.t_max);
-    for (RayBlock block; blocks.next(block);) {
-      float t = block.t0;
-      for (; depth < block.most * (block.t1 - t); depth = exponential_distance(random_.next())) {
-        t += depth / block.most;
-        consider(t, block.most);
-        if (!goes_on()) return result_;
-      }
-      depth -= block.most * (block.t1 - t);
-    }
+    tentative_collisions(space_.medium.walk(space_.ray, space_.t_max), 1, random_.next(), random_,
+                         [&](float t, float majorant) {
+                           consider(t, majorant);
+                           return goes_on();
+                         });
     return result_;
   }
 

@@ -1,5 +1,7 @@
 #include "libguide/medium/medium_tracker.h"
 
+#include "libguide/medium/tentative_collisions.h"
+
 namespace waylight {
 namespace {
 
@@ -74,24 +76,18 @@ Flight MediumTracker::fly_exponential(const Ray& ray, float t_max, const Color& 
 
 Flight MediumTracker::track(const Ray& ray, float t_max, const Color& throughput,
                             Sampler& sampler) const {
-  float depth = exponential_distance(sampler.next());  // optical, left until the next collision
+  const float u = sampler.next();
   RandomStream random(sampler);
-  Color weight = Color::Ones();
-  BlockWalk blocks = walk(ray, t_max);
-  for (RayBlock block; blocks.next(block);) {
-    float t = block.t0;
-    while (depth < block.most * (block.t1 - t)) {
-      t += depth / block.most;
-      const MediumCoefficients here = at(ray(t));
-      const Collision collision(here.sigma_t, block.most, throughput * weight);
-      if (random.next() < collision.real_prob)
-        return {t, true, weight * collision.real_weight(), here};
-      weight *= collision.null_weight();
-      depth = exponential_distance(random.next());
-    }
-    depth -= block.most * (block.t1 - t);
-  }
-  return {t_max, false, weight, {}};
+  Flight flight{t_max};
+  tentative_collisions(walk(ray, t_max), 1, u, random, [&](float t, float majorant) {
+    const MediumCoefficients here = at(ray(t));
+    const Collision collision(here.sigma_t, majorant, throughput * flight.weight);
+    flight.scattered = random.next() < collision.real_prob;
+    if (flight.scattered) flight.t = t, flight.here = here;
+    flight.weight *= flight.scattered ? collision.real_weight() : collision.null_weight();
+    return !flight.scattered;
+  });
+  return flight;
 }
 
 Color MediumTracker::transmittance(const Ray& ray, float t_max, RandomStream& random) const {
