@@ -1,6 +1,6 @@
 #pragma once
 // Exponential biasing: distances by a multiple of the extinction, also path stretching
-// [Dwivedi 1982; Lux, Koblinger 1991].
+// [Lux, Koblinger 1991].
 
 #include "libguide/guiding/flight_space.h"
 
