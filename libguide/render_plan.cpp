@@ -122,6 +122,7 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
   result.phases.guide = phase_guide_of(options);
   result.flight = flight_of(options);
   result.flights.bias = options.distance_bias;
+  result.flights.guides_grids = options.distance == DistanceMode::guided;
   result.roulette = roulette_of(options);
   result.max_split = options.split;
   result.max_depth = options.max_depth == -2 ? defaults.max_depth : options.max_depth;

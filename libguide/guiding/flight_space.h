@@ -9,6 +9,7 @@ namespace waylight {
 struct FlightOptions {
   float standard_share = 0.25f;  // of flights that ignore the guide, in (0, 1]
   float bias = 0.5f;             // of exponential biasing: factor of the extinction, positive
+  bool guides_grids = true;      // whether flights through media that vary are guided too
 };
 
 // What a flight is through. with_direct: whether light straight from emitters counts at the end of

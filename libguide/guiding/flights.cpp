@@ -25,8 +25,9 @@ Flight sample_flight(FlightMethod method, const Scene& scene, const FlightSpace&
                      const FlightOptions& options, Sampler& sampler) {
   switch (method) {
     case FlightMethod::guided:
-      return space.medium.homogeneous() ? GuidedFlight(space, options).sample(sampler)
-                                        : TrackedFlight(space, options).sample(sampler);
+      if (space.medium.homogeneous()) return GuidedFlight(space, options).sample(sampler);
+      return options.guides_grids ? TrackedFlight(space, options).sample(sampler)
+                                  : standard_flight(space, sampler);
     case FlightMethod::probability:
       return ProbabilityFlight(space, options).sample(sampler);
     case FlightMethod::equiangular:

@@ -24,7 +24,9 @@ void report(const ToolRun& run, const Provenance& provenance, Quantity quantity,
                         100 * s.absorbed / emitted, 100 * s.left_scene / emitted,
                         100 * s.too_deep / emitted));
   if (s.invalid > 0) run.control.warn(fmt::format("{} invalid photons were dropped", s.invalid));
-  if (s.stored == 0)
+  if (s.in_media > 0)
+    run.print(fmt::format("{} photons in media", format_count(double(s.in_media))));
+  if (s.stored + s.in_media == 0)
     run.control.warn("no particle hit a surface that stores photons: a cache cannot be trained");
   nlohmann::ordered_json stats = stats_of(provenance);
   stats.update({{"seconds", s.seconds},
