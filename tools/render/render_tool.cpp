@@ -24,7 +24,7 @@ struct LoadedCaches {
     const RenderMode mode = arguments.options.mode;
     const std::string scene_name = file_name(arguments.scene.path);
     if (!needs_cache(arguments.options)) return;
-    require(!arguments.cache.empty(), "{} needs --cache", method_name(arguments.options));
+    require(!arguments.cache.empty(), "--mode {} needs --cache", method_name(arguments.options));
     guide.emplace(arguments.cache);
     require_same_scene(arguments.cache, guide->provenance(), scene_name, scene.hash,
                        SceneParts::all);
