@@ -120,6 +120,7 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
       options.share_rule == ShareRule::fixed ? options.bsdf_share : default_share(options.mode);
   result.directions.candidates = options.candidates;
   result.phases.guide = phase_guide_of(options);
+  if (options.direction == PhaseMode::mixture) result.phases.phase_share = 0.5f;
   result.flight = flight_of(options);
   result.flights.bias = options.distance_bias;
   result.flights.guides_grids = options.distance == DistanceMode::guided;

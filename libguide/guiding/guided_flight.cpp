@@ -9,11 +9,11 @@ constexpr float kFaint = 1e-6f;  // share of light that is left where bins are n
 
 // What the ray has in one block of extinction and one cell of the cache.
 struct Bin {
-  float t0, t1;
-  Color sigma;     // what the processes go by
-  float source;    // albedo Li
-  Color standard;  // mass of the standard process here, by channel
-  Color scatter;   // and of the mixture of both
+  float t0 = 0, t1 = 0;
+  Color sigma = Color::Zero();     // what the processes go by
+  float source = 0;                // albedo Li
+  Color standard = Color::Zero();  // mass of the standard process here, by channel
+  Color scatter = Color::Zero();   // and of the mixture of both
 
   float length() const { return t1 - t0; }
   // Density of the place s behind t0, given that a process of each channel scatters here.
@@ -90,7 +90,7 @@ struct GuidedFlight::Plan {
   }
 
   int count = 0;
-  std::array<Bin, kMaxBins> bins;
+  std::array<Bin, kMaxBins> bins;  // `count` of them are set
   Color pass = Color::Zero();
 
  private:

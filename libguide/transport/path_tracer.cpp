@@ -1,7 +1,6 @@
 #include "libguide/transport/path_tracer.h"
 
-#include <memory>
-
+#include "libguide/transport/path_state.h"
 #include "libguide/transport/split_sampler.h"
 #include "libguide/transport/weight_window.h"
 
@@ -28,55 +27,6 @@ uint32_t cell_of(const GuidingCaches& /*caches*/, const PhaseSampler& /*directio
 }
 
 }  // namespace
-
-// One of the copies of a camera path.
-struct PathTracer::State {
-  Ray ray;
-  Sampler sampler;
-  Color throughput;
-  Color roulette_throughput;  // what BSDF sampling would have had
-  float eta_scale;            // undoes the 1/eta^2 of refraction for roulette
-  Vec3 previous;              // last vertex, from which light_pdf is measured
-  float pdf;                  // of the direction of `ray`
-  bool specular;              // it came from a delta lobe or the camera
-  bool has_estimate;          // roulette at this vertex went by the caches
-  int edges;
-  int medium;  // that `ray` is in, or kNone
-
-  void weigh(const Color& factor) {
-    throughput *= factor;
-    roulette_throughput *= factor;
-  }
-};
-
-// A camera path and all its copies, depth first. The copies that wait are not initialised before
-// they are made.
-struct PathTracer::Walk {
-  PathRecord record;
-  PathContext context;
-  float pixel_estimate;  // I; 0 as long as it is not known
-  int waiting_count = 0;
-  union {
-    std::array<State, kMaxWaiting> waiting;
-  };
-
-  explicit Walk(const PathContext& c)
-      : context(c), pixel_estimate(std::isfinite(c.pixel_estimate) ? c.pixel_estimate : 0) {}
-
-  // Copies that a vertex may be split into.
-  int room(int max_split) const {
-    return std::min({max_split, kMaxWaiting - waiting_count + 1,
-                     kMaxCopies - static_cast<int>(record.copies) + 1});
-  }
-  void add(int edges, const Color& radiance) {
-    record.radiance += radiance;
-    if (context.segments) context.segments->add(edges, context.filter_weight * luminance(radiance));
-  }
-  void reach(int edges) {
-    ++record.edges;
-    if (context.segments) context.segments->reach(edges);
-  }
-};
 
 PathRecord PathTracer::trace(const Ray& ray, const Sampler& sampler,
                              const PathContext& context) const {

@@ -14,8 +14,9 @@ struct BrdfFitArguments {
   BrdfFitOptions options;
 };
 
-void add_family(CLI::App& app,
-                BrdfFitArguments& arguments);  // --family in place of SCENE, --family-file
+void declare(CLI::App& app, BrdfFitArguments& arguments);  // its command line
+// --family in place of SCENE, --family-file
+void add_family(CLI::App& app, BrdfFitArguments& arguments);
 
 void brdf_fit(const ToolRun& run, const ToolInfo& tool, const BrdfFitArguments& arguments);
 

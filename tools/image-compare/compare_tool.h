@@ -29,6 +29,8 @@ struct ImageCompareOptions {
 using ImageLabels = std::map<std::string, std::string>;
 ImageLabels collect_labels(const ImageCompareOptions& options);
 
+void declare(CLI::App& app, ImageCompareOptions& options);  // the command line
+
 // Prints the figures on stdout, and writes the files asked for.
 void image_compare(const ToolRun& run, const ImageCompareOptions& options);
 

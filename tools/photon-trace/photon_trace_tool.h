@@ -11,6 +11,8 @@ struct PhotonTraceArguments {
   PhotonTraceOptions options;
 };
 
+void declare(CLI::App& app, PhotonTraceArguments& arguments);  // its command line
+
 void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArguments& arguments);
 
 }  // namespace waylight

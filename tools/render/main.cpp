@@ -18,6 +18,10 @@ and the fitted BSDF (--cache and --brdf); mixture: from the mean of the two inst
 --candidates from BSDF and cache, the one that BSDF times light favours. All have the same mean;
 caches change the noise alone.
 
+In media, --distance says where along a ray a path scatters and --direction whereto; all modes but
+bsdf guide both where the cache holds media, and --mode bsdf --distance guided --direction product
+--cache room.cache guides in media alone.
+
 Distances in media. standard: by extinction. guided: by the light along the ray (--cache).
 probability: the guide decides only whether a path scatters (--cache). equiangular: near lights, in
 homogeneous media. exponential: by extinction times --distance-bias. The last three are there to be
@@ -32,28 +36,6 @@ guiding (share of scatterings with a guide), all.
 Examples:
   render room.xml -o plain.exr --spp 256
   render room.xml -o guided.exr --mode product --cache room.cache --brdf room.brdf --time 60)"};
-
-void declare(CLI::App& app, RenderArguments& arguments) {
-  RenderOptions& options = arguments.options;
-  add_scene(app, arguments.scene);
-  add_ignore_media(app, arguments.scene);
-  as_output(app.add_option("-o,--output", arguments.output, "Image to write (.exr)"), {".exr"})
-      ->required();
-  as_output(app.add_option("--png", arguments.png, "The image as sRGB picture too (.png)"),
-            {".png"});
-  add_mode(app, options.mode);
-  add_media(app, options);
-  add_roulette(app, options);
-  as_input(app.add_option("--cache", arguments.cache, "Illumination cache"));
-  as_input(app.add_option("--brdf", arguments.brdf, "Fitted BSDFs"));
-  as_output(app.add_option("--segments", arguments.segments,
-                           "Contribution by number of edges, as a table (.csv)"),
-            {".csv"});
-  add_stopping(app, options);
-  add_frame(app, arguments);
-  app.add_option("--seed", options.seed, "Seed of the random numbers");
-  add_sharing(app, arguments);
-}
 
 }  // namespace
 

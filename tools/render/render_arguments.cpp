@@ -71,8 +71,6 @@ void read_share(const std::string& text, RenderOptions& options) {
   options.share_rule = ShareRule::fixed;
 }
 
-}  // namespace
-
 void add_mode(CLI::App& app, RenderMode& mode) {
   add_choice(
       app, "--mode", kModes, [&mode](size_t i) { mode = static_cast<RenderMode>(i); },
@@ -139,6 +137,30 @@ void add_sharing(CLI::App& app, RenderArguments& arguments) {
                  "auto: learned in mode illumination, else 0.3, and 0.5 in ris")
       ->type_name("SHARE");
   app.add_option("--candidates", arguments.options.candidates, "Directions that ris chooses from");
+}
+
+}  // namespace
+
+void declare(CLI::App& app, RenderArguments& arguments) {
+  RenderOptions& options = arguments.options;
+  add_scene(app, arguments.scene);
+  add_ignore_media(app, arguments.scene);
+  as_output(app.add_option("-o,--output", arguments.output, "Image to write (.exr)"), {".exr"})
+      ->required();
+  as_output(app.add_option("--png", arguments.png, "The image as sRGB picture too (.png)"),
+            {".png"});
+  add_mode(app, options.mode);
+  add_media(app, options);
+  add_roulette(app, options);
+  as_input(app.add_option("--cache", arguments.cache, "Illumination cache"));
+  as_input(app.add_option("--brdf", arguments.brdf, "Fitted BSDFs"));
+  as_output(app.add_option("--segments", arguments.segments,
+                           "Contribution by number of edges, as a table (.csv)"),
+            {".csv"});
+  add_stopping(app, options);
+  add_frame(app, arguments);
+  app.add_option("--seed", options.seed, "Seed of the random numbers");
+  add_sharing(app, arguments);
 }
 
 RenderOptions complete_options(const RenderArguments& arguments) {

@@ -14,13 +14,7 @@ struct RenderArguments {
   RenderOptions options;
 };
 
-void add_mode(CLI::App& app, RenderMode& mode);  // --mode
-// --rr, --split, --pixel-estimate, --max-depth, --rr-depth
-void add_media(CLI::App& app, RenderOptions& options);
-void add_roulette(CLI::App& app, RenderOptions& options);
-void add_stopping(CLI::App& app, RenderOptions& options);     // --spp, --time, --error
-void add_sharing(CLI::App& app, RenderArguments& arguments);  // --bsdf-share, --candidates
-void add_frame(CLI::App& app, RenderArguments& frame);        // --size, --crop, --aov
+void declare(CLI::App& app, RenderArguments& arguments);  // its command line
 
 void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arguments);
 
