@@ -1,5 +1,7 @@
 #include "libguide/guiding/guided_flight.h"
 
+#include <memory>
+
 namespace waylight {
 namespace {
 
@@ -90,7 +92,9 @@ struct GuidedFlight::Plan {
   }
 
   int count = 0;
-  std::array<Bin, kMaxBins> bins;  // `count` of them are set
+  union {  // not initialised: the first `count` are set
+    std::array<Bin, kMaxBins> bins;
+  };
   Color pass = Color::Zero();
 
  private:
@@ -99,7 +103,7 @@ struct GuidedFlight::Plan {
     if (count == kMaxBins || (faint && count > 0))
       bins[count - 1].append(bin);
     else
-      bins[count++] = bin;
+      std::construct_at(&bins[count++], bin);
     if (!faint) left *= 1 - attenuated_share(bin.sigma * bin.length());
   }
 
