@@ -3,8 +3,6 @@
 namespace waylight {
 namespace {
 
-constexpr float kFar = 1e30f;  // keeps 0 times infinity out
-
 int choose_channel(const Color& probs, float u) {
   if (u < probs[0]) return 0;
   return u < probs[0] + probs[1] ? 1 : 2;

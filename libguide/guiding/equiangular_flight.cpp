@@ -3,7 +3,6 @@
 namespace waylight {
 namespace {
 
-constexpr float kFar = 1e30f;     // keeps 0 times infinity out
 constexpr float kReach = 16;      // mean free paths; beyond, the standard half is enough
 constexpr double kHeight = 1e-5;  // of the range, the least D: keeps densities finite
 constexpr float kEquiangular = 0.5f;

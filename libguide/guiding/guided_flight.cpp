@@ -5,7 +5,6 @@
 namespace waylight {
 namespace {
 
-constexpr float kFar = 1e30f;  // keeps 0 times infinity out
 constexpr int kMaxBins = 96;
 constexpr float kFaint = 1e-6f;  // share of light that is left where bins are no longer told apart
 

@@ -1,12 +1,11 @@
 #include "libguide/guiding/probability_flight.h"
 
 #include "libguide/guiding/guided_flight.h"
+#include "libguide/medium/faint_roulette.h"
 #include "libguide/medium/tentative_collisions.h"
 
 namespace waylight {
 namespace {
-
-constexpr float kFar = 1e30f;  // keeps 0 times infinity out
 
 // What the standard method makes for a ray.
 struct Standard {
@@ -75,10 +74,8 @@ class Sweep {
   bool goes_on() {
     constexpr float kFaint = 0.05f;
     const float left = (space_.channels * result_.pass_weight).sum();
-    if (left >= kFaint) return true;
-    const bool survives = random_.next() * kFaint < left;
-    result_.pass_weight *= survives ? kFaint / left : 0;
-    return survives;
+    result_.pass_weight *= faint_roulette(left, kFaint, random_);
+    return !is_black(result_.pass_weight);
   }
 
   const FlightSpace& space_;

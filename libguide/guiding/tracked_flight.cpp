@@ -1,11 +1,11 @@
 #include "libguide/guiding/tracked_flight.h"
 
+#include "libguide/medium/faint_roulette.h"
 #include "libguide/medium/tentative_collisions.h"
 
 namespace waylight {
 namespace {
 
-constexpr float kFar = 1e30f;        // keeps 0 times infinity out
 constexpr float kMinCandidates = 6;  // expected along a ray
 constexpr float kFaint = 0.02f;      // share of light below which roulette ends the sweep
 
@@ -80,11 +80,8 @@ class Sweep {
     return guide.known() ? guide.incident(space_.ray.direction, space_.with_direct) : scattered_;
   }
   bool goes_on() {
-    const float share = mean(left_);
-    if (share >= kFaint) return true;
-    const bool survives = random_.next() * kFaint < share;
-    left_ *= survives ? kFaint / share : 0;
-    return survives;
+    left_ *= faint_roulette(mean(left_), kFaint, random_);
+    return !is_black(left_);
   }
 
   const FlightSpace& space_;

@@ -1,11 +1,10 @@
 #include "libguide/medium/medium_tracker.h"
 
+#include "libguide/medium/faint_roulette.h"
 #include "libguide/medium/tentative_collisions.h"
 
 namespace waylight {
 namespace {
-
-constexpr float kFar = 1e30f;  // keeps 0 times infinity out
 
 Color exponential(const Color& sigma_t, float distance) {
   return (-sigma_t * std::min(distance, kFar)).exp();
@@ -98,9 +97,8 @@ Color MediumTracker::transmittance(const Ray& ray, float t_max, RandomStream& ra
   for (RayBlock block; blocks.next(block);) {
     result *= std::exp(-block.least * block.length()) * residual(ray, block, random);
     const float largest = result.maxCoeff();
-    if (largest >= kFaint) continue;
-    if (!(random.next() * kFaint < largest)) return Color::Zero();
-    result *= kFaint / largest;
+    result *= faint_roulette(largest, kFaint, random);
+    if (is_black(result)) return result;
   }
   return result;
 }

@@ -9,6 +9,9 @@
 
 namespace waylight {
 
+// Distances in optical depths end here: 0 times infinity is kept out.
+inline constexpr float kFar = 1e30f;
+
 struct MediumCoefficients {
   Color sigma_t, albedo;
 };
