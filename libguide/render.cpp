@@ -2,9 +2,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <ctime>
 
 #include "libguide/base/error.h"
-#include "libguide/base/memory.h"
 #include "libguide/base/parallel.h"
 #include "libguide/render_plan.h"
 #include "libguide/scene/camera.h"
@@ -17,57 +17,30 @@ namespace waylight {
 
 namespace {
 
-constexpr int kTile = 16;  // pixels along a side
-constexpr double kTileArea = kTile * kTile;
+constexpr int kTile = kRenderTile;
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// The sums, then the image of every channel, and its copy while it is written.
-void require_memory_for(const FilmDescription& film, bool segments) {
-  constexpr double kChannels = 16, kBytesPerPixel = sizeof(PixelSums) + 2 * kChannels * 4;
-  const double per_pixel = kBytesPerPixel + (segments ? sizeof(SegmentSums) / kTileArea : 0);
-  const double needed = per_pixel * film.crop_width * film.crop_height;
-  const double limit = static_cast<double>(memory_limit_bytes());
-  require(
-      needed <= limit,
-      "{} x {} pixels need up to {:.1f} GB of memory, and there are {:.1f} GB: reduce --size, or "
-      "render windows of it with --crop",
-      film.crop_width, film.crop_height, needed / 1e9, limit / 1e9);
-}
-
-// The scene's film with the options' size and crop window.
-FilmDescription film_of(const FilmDescription& scene_film, const RenderOptions& options) {
-  FilmDescription film = scene_film;
-  if (options.width > 0) {
-    film.crop_x = film.crop_x * options.width / film.width;
-    film.crop_width = film.crop_width * options.width / film.width;
-    film.crop_y = film.crop_y * options.height / film.height;
-    film.crop_height = film.crop_height * options.height / film.height;
-    film.width = options.width;
-    film.height = options.height;
+// Seconds of work: those in which checkpoints are written do not count.
+class Stopwatch {
+ public:
+  double seconds() const { return now() - start_; }
+  double cpu_seconds() const { return cpu_now() - cpu_start_; }
+  template <typename Work>
+  void paused(const Work& work) {
+    const double begin = now(), cpu_begin = cpu_now();
+    work();
+    start_ += now() - begin;
+    cpu_start_ += cpu_now() - cpu_begin;
   }
-  if (options.crop_width > 0) {
-    film.crop_x = options.crop_x;
-    film.crop_y = options.crop_y;
-    film.crop_width = options.crop_width;
-    film.crop_height = options.crop_height;
+
+ private:
+  static double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
   }
-  if (film.crop_width <= 0 || film.crop_height <= 0) {
-    film.crop_x = film.crop_y = 0;
-    film.crop_width = film.width;
-    film.crop_height = film.height;
-  }
-  require(film.crop_x >= 0 && film.crop_y >= 0 && film.crop_x + film.crop_width <= film.width &&
-              film.crop_y + film.crop_height <= film.height,
-          "the crop window {}x{}+{}+{} leaves the film of {}x{} pixels", film.crop_width,
-          film.crop_height, film.crop_x, film.crop_y, film.width, film.height);
-  require_memory_for(film, options.segments);
-  return film;
-}
+  static double cpu_now() { return double(std::clock()) / CLOCKS_PER_SEC; }
+
+  double start_ = now(), cpu_start_ = cpu_now();
+};
 
 void require_caches(const RenderCaches& caches, const RenderOptions& options) {
   const GuideCacheView& guide = caches.guide;
@@ -117,31 +90,44 @@ class Renderer {
         tiles_y_((film_.height() + kTile - 1) / kTile),
         segments_(options.segments ? size_t(tiles_x_) * tiles_y_ : 0) {}
 
-  void run() {
-    const Clock::time_point start = Clock::now();
-    if (learns_shares(options_)) learn(start);
-    const double before_preview = seconds_since(start);
+  void run(const CheckpointSink& on_checkpoint) {
+    if (learns_shares(options_)) learn();
+    const double before_preview = clock_.seconds();
     estimate_pixels();
-    preview_seconds_ = seconds_since(start) - before_preview;
-    int done = 0;
-    for (int count = 1; count > 0 && !stopped_; count = next_pass(done, seconds_since(start))) {
-      render_pass(done, count);
-      done += count;
-      report(done, seconds_since(start));
+    preview_seconds_ = clock_.seconds() - before_preview;
+    for (int count = 1; count > 0 && !stopped_; count = next_pass()) {
+      render_pass(count);
+      report();
+      while (!stopped_ && checkpoint_due(0.5 * seconds_per_sample())) write(on_checkpoint);
     }
-    seconds_ = seconds_since(start);
+    while (!stopped_ && checkpoint_due(kInfinity)) write(on_checkpoint);
+    read_clock();
   }
 
-  const Film& film() const { return film_; }
-  double seconds() const { return seconds_; }
-  double preview_seconds() const { return preview_seconds_; }
-  uint64_t preview_rays() const { return preview_rays_; }
-  bool interrupted() const { return stopped_; }
-  // Added in the order of tiles, so that threads do not matter.
-  SegmentSums segments() const {
-    SegmentSums sums;
-    for (const SegmentSums& tile : segments_) sums.merge(tile);
-    return sums;
+  Image develop() const { return film_.develop(options_.aovs); }
+
+  RenderSummary summary() const {
+    const FilmTotals totals = film_.totals();
+    const double samples = std::max<double>(totals.samples, 1);
+    const double scatterings = std::max<double>(totals.scatterings, 1);
+    RenderSummary summary;
+    summary.width = film_.width();
+    summary.height = film_.height();
+    summary.seconds = seconds_;
+    summary.cpu_seconds = cpu_seconds_;
+    summary.preview_seconds = preview_seconds_;
+    summary.interrupted = stopped_;
+    summary.mean_spp = double(totals.samples) / (double(film_.width()) * film_.height());
+    summary.mean_path_length = double(totals.edges) / samples;
+    summary.bsdf_share = totals.scatterings ? totals.bsdf_share / scatterings : 1;
+    summary.guiding_share = double(totals.guided) / scatterings;
+    summary.estimated_relmse = film_.estimated_relmse();
+    summary.rays = totals.rays + preview_rays_;
+    summary.killed_share = double(totals.killed) / (samples + double(totals.copies));
+    summary.copies_per_path = double(totals.copies) / samples;
+    summary.invalid_samples = totals.invalid;
+    summary.segments = segments();
+    return summary;
   }
 
  private:
@@ -149,7 +135,7 @@ class Renderer {
   static constexpr double kTimeOfPilot = 20;
 
   // At most a twentieth of the time goes into the pilot.
-  void learn(Clock::time_point start) {
+  void learn() {
     SharePilotOptions pilot;
     pilot.seed = options_.seed;
     pilot.default_share = default_share(options_.mode);
@@ -159,20 +145,50 @@ class Renderer {
     const PathTracer unsplit(scene_, guiding_, options, camera_medium_);
     guiding_.learned(learn_shares(unsplit, sensor_, guiding_.guide().cells.size(), pilot, [&] {
       return control_.stopped() ||
-             (options_.time > 0 && seconds_since(start) > options_.time / kTimeOfPilot);
+             (options_.time > 0 && clock_.seconds() > options_.time / kTimeOfPilot);
     }));
   }
 
   // Samples per pixel of the next pass; 0 when the render is done.
-  int next_pass(int done, double seconds) const {
-    int count = std::min(done, kMaxPass);
-    if (options_.spp > 0) count = std::min(count, options_.spp - done);
-    if (options_.time > 0) {
-      const double left = (options_.time - seconds) / ((seconds - preview_seconds_) / done);
-      count = left < 0.5 ? 0 : std::min(count, std::max(1, int(left)));
-    }
-    if (options_.error > 0 && done >= 4 && film_.estimated_relmse() <= options_.error) count = 0;
+  int next_pass() const {
+    int count = std::min(done_, kMaxPass);
+    if (options_.spp > 0) count = std::min(count, options_.spp - done_);
+    if (checkpoint_ < options_.checkpoints.size())
+      count = std::min(count, std::max(1, passes_until(options_.checkpoints[checkpoint_])));
+    if (options_.time > 0) count = std::min(count, passes_until(options_.time));
+    if (options_.error > 0 && done_ >= 4 && film_.estimated_relmse() <= options_.error) count = 0;
     return count;
+  }
+
+  double seconds_per_sample() const { return (clock_.seconds() - preview_seconds_) / done_; }
+
+  // Samples per pixel that fit into the time; 0 where less than half of one does.
+  int passes_until(double seconds) const {
+    const double left = std::min((seconds - clock_.seconds()) / seconds_per_sample(), 1e9);
+    return left < 0.5 ? 0 : std::max(1, static_cast<int>(left));
+  }
+
+  bool checkpoint_due(double tolerance) const {
+    return checkpoint_ < options_.checkpoints.size() &&
+           clock_.seconds() + tolerance >= options_.checkpoints[checkpoint_];
+  }
+
+  void read_clock() {
+    seconds_ = clock_.seconds();
+    cpu_seconds_ = clock_.cpu_seconds();
+  }
+
+  void write(const CheckpointSink& on_checkpoint) {
+    read_clock();
+    const double due = options_.checkpoints[checkpoint_++];
+    clock_.paused([&] { on_checkpoint(due, develop(), summary()); });
+  }
+
+  // Added in the order of tiles, so that threads do not matter.
+  SegmentSums segments() const {
+    SegmentSums sums;
+    for (const SegmentSums& tile : segments_) sums.merge(tile);
+    return sums;
   }
 
   void estimate_pixels() {
@@ -183,7 +199,8 @@ class Renderer {
     preview_rays_ = preview.rays;
   }
 
-  void render_pass(int first, int count) {
+  void render_pass(int count) {
+    const int first = done_;
     parallel_for(size_t(tiles_x_) * tiles_y_, [&](size_t tile) {
       const int x0 = int(tile % tiles_x_) * kTile, y0 = int(tile / tiles_x_) * kTile;
       SegmentSums* segments = segments_.empty() ? nullptr : &segments_[tile];
@@ -192,6 +209,7 @@ class Renderer {
           if (!stopped_) render_pixel(x, y, first, count, segments);
       if (control_.stopped()) stopped_ = true;
     });
+    done_ += count;
   }
 
   void render_pixel(int x, int y, int first, int count, SegmentSums* segments) {
@@ -209,12 +227,13 @@ class Renderer {
     if (segments) segments->samples += count;
   }
 
-  void report(int done, double seconds) const {
+  void report() const {
+    const double seconds = clock_.seconds();
     if (options_.time > 0 &&
-        (options_.spp == 0 || seconds / options_.time > double(done) / options_.spp))
+        (options_.spp == 0 || seconds / options_.time > double(done_) / options_.spp))
       control_.progress(std::min(seconds, options_.time), options_.time, "s");
     else
-      control_.progress(done, options_.spp, "spp");
+      control_.progress(done_, options_.spp, "spp");
   }
 
   const Scene& scene_;
@@ -231,53 +250,30 @@ class Renderer {
   Film film_;
   int tiles_x_, tiles_y_;
   std::vector<SegmentSums> segments_;  // one per tile; empty when not asked for
-  double seconds_ = 0, preview_seconds_ = 0;
+  Stopwatch clock_;
+  int done_ = 0;           // samples per pixel
+  size_t checkpoint_ = 0;  // the next
+  double seconds_ = 0, cpu_seconds_ = 0, preview_seconds_ = 0;
   uint64_t preview_rays_ = 0;
   std::atomic<bool> stopped_{false};
 };
 
 }  // namespace
 
-namespace {
-
-RenderSummary summarize(const Renderer& renderer) {
-  const Film& film = renderer.film();
-  const FilmTotals totals = film.totals();
-  RenderSummary summary;
-  summary.width = film.width();
-  summary.height = film.height();
-  summary.seconds = renderer.seconds();
-  summary.interrupted = renderer.interrupted();
-  summary.mean_spp = double(totals.samples) / (double(film.width()) * film.height());
-  summary.mean_path_length = double(totals.edges) / std::max<double>(totals.samples, 1);
-  summary.bsdf_share = totals.scatterings ? totals.bsdf_share / totals.scatterings : 1;
-  summary.guiding_share = double(totals.guided) / std::max<double>(totals.scatterings, 1);
-  summary.estimated_relmse = film.estimated_relmse();
-  summary.rays = totals.rays + renderer.preview_rays();
-  summary.preview_seconds = renderer.preview_seconds();
-  const double samples = std::max<double>(totals.samples, 1);
-  summary.killed_share = double(totals.killed) / (samples + double(totals.copies));
-  summary.copies_per_path = double(totals.copies) / samples;
-  summary.segments = renderer.segments();
-  summary.invalid_samples = totals.invalid;
-  return summary;
-}
-
-}  // namespace
-
 Image render(const Scene& scene, const RenderCaches& caches, const RenderOptions& options,
-             RenderSummary* summary, const RunControl& control) {
+             RenderSummary* summary, const RunControl& control,
+             const CheckpointSink& on_checkpoint) {
   options.validate();
   require_caches(caches, options);
   warn_of_fallback(scene, options, control);
   Renderer renderer(scene, caches, options, control);
-  renderer.run();
-  const RenderSummary result = summarize(renderer);
+  renderer.run(on_checkpoint);
+  const RenderSummary result = renderer.summary();
   if (result.invalid_samples > 0)
     control.warn(
         fmt::format("{} samples were NaN or infinite and count as zero", result.invalid_samples));
   if (summary) *summary = result;
-  return renderer.film().develop(options.aovs);
+  return renderer.develop();
 }
 
 }  // namespace waylight

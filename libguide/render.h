@@ -2,6 +2,9 @@
 // Stage: path tracing with next-event estimation and MIS; directions by BSDF, illumination guiding
 // [Vorba et al. 2014], product guiding [Herholz et al. 2016], or resampling [Talbot et al. 2005].
 
+#include <functional>
+#include <vector>
+
 #include "libguide/base/run_control.h"
 #include "libguide/cache/guide_cache_view.h"
 #include "libguide/image/image.h"
@@ -46,6 +49,8 @@ struct RenderOptions {
   int spp = 0;      // samples per pixel, 0: no limit
   double time = 0;  // seconds of rendering, 0: no limit
   float error = 0;  // relMSE estimated from the image's own variance, 0: no limit
+  // Seconds of rendering, rising, at which the image so far is handed out; ends nothing.
+  std::vector<double> checkpoints;
   uint64_t seed = 0;
   int width = 0, height = 0;  // 0: the scene's; cropped scenes keep their window in proportion
   int crop_x = 0, crop_y = 0, crop_width = 0, crop_height = 0;  // pixels; crop_width 0: scene's
@@ -77,6 +82,7 @@ struct RenderSummary {
   int width = 0, height = 0;  // of the image
   double mean_spp = 0;
   double seconds = 0;            // rendering alone, the preview included
+  double cpu_seconds = 0;        // of all threads of the process meanwhile
   double preview_seconds = 0;    // of them
   uint64_t rays = 0;             // camera, scattered and shadow rays, those of the preview included
   double mean_path_length = 0;   // edges per camera path, those of its copies included
@@ -90,9 +96,14 @@ struct RenderSummary {
   SegmentSums segments;  // with options.segments only
 };
 
+// Gets the image and its figures when a checkpoint is reached, or, where the render ends before,
+// then; none after an interrupt. Its time is not the render's.
+using CheckpointSink = std::function<void(double checkpoint, const Image&, const RenderSummary&)>;
+
 // Channels R, G, B and those of `aovs`. The same bytes for equal inputs at any thread count, unless
 // `time` ends the render.
 Image render(const Scene& scene, const RenderCaches& caches, const RenderOptions& options,
-             RenderSummary* summary, const RunControl& control);
+             RenderSummary* summary, const RunControl& control,
+             const CheckpointSink& on_checkpoint = {});
 
 }  // namespace waylight

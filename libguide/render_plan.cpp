@@ -1,11 +1,17 @@
 #include "libguide/render_plan.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "libguide/base/error.h"
+#include "libguide/base/memory.h"
+#include "libguide/transport/film.h"
 
 namespace waylight {
 namespace {
+
+constexpr double kTileArea = kRenderTile * kRenderTile;
 
 DirectionGuide guide_of(RenderMode mode) {
   switch (mode) {
@@ -48,6 +54,19 @@ FlightMethod flight_of(const RenderOptions& options) {
   return options.mode == RenderMode::bsdf ? FlightMethod::standard : FlightMethod::guided;
 }
 
+// The sums, then the image of every channel, and its copy while it is written.
+void require_memory_for(const FilmDescription& film, bool segments) {
+  constexpr double kChannels = 16, kBytesPerPixel = sizeof(PixelSums) + 2 * kChannels * 4;
+  const double per_pixel = kBytesPerPixel + (segments ? sizeof(SegmentSums) / kTileArea : 0);
+  const double needed = per_pixel * film.crop_width * film.crop_height;
+  const double limit = static_cast<double>(memory_limit_bytes());
+  require(
+      needed <= limit,
+      "{} x {} pixels need up to {:.1f} GB of memory, and there are {:.1f} GB: reduce --size, or "
+      "render windows of it with --crop",
+      film.crop_width, film.crop_height, needed / 1e9, limit / 1e9);
+}
+
 }  // namespace
 
 bool guides_media(const RenderOptions& options) {
@@ -84,6 +103,9 @@ void RenderOptions::validate() const {
   require(spp >= 0 && spp <= 1 << 24, "--spp must be in [1, 16777216], not {}", spp);
   require(time >= 0 && std::isfinite(time), "--time must be a number of seconds, not {}", time);
   require(error >= 0 && std::isfinite(error), "--error must be positive, not {}", error);
+  require(std::is_sorted(checkpoints.begin(), checkpoints.end(), std::less_equal<>()) &&
+              (checkpoints.empty() || (checkpoints[0] > 0 && std::isfinite(checkpoints.back()))),
+          "--checkpoints must be rising numbers of seconds");
   require(
       width >= 0 && height >= 0 && width <= 65536 && height <= 65536 && (width > 0) == (height > 0),
       "--size must be WIDTHxHEIGHT with both in [1, 65536]");
@@ -130,6 +152,35 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
   result.rr_depth = options.rr_depth == -1 ? defaults.rr_depth : options.rr_depth;
   result.hide_emitters = defaults.hide_emitters;
   return result;
+}
+
+FilmDescription film_of(const FilmDescription& scene_film, const RenderOptions& options) {
+  FilmDescription film = scene_film;
+  if (options.width > 0) {
+    film.crop_x = film.crop_x * options.width / film.width;
+    film.crop_width = film.crop_width * options.width / film.width;
+    film.crop_y = film.crop_y * options.height / film.height;
+    film.crop_height = film.crop_height * options.height / film.height;
+    film.width = options.width;
+    film.height = options.height;
+  }
+  if (options.crop_width > 0) {
+    film.crop_x = options.crop_x;
+    film.crop_y = options.crop_y;
+    film.crop_width = options.crop_width;
+    film.crop_height = options.crop_height;
+  }
+  if (film.crop_width <= 0 || film.crop_height <= 0) {
+    film.crop_x = film.crop_y = 0;
+    film.crop_width = film.width;
+    film.crop_height = film.height;
+  }
+  require(film.crop_x >= 0 && film.crop_y >= 0 && film.crop_x + film.crop_width <= film.width &&
+              film.crop_y + film.crop_height <= film.height,
+          "the crop window {}x{}+{}+{} leaves the film of {}x{} pixels", film.crop_width,
+          film.crop_height, film.crop_x, film.crop_y, film.width, film.height);
+  require_memory_for(film, options.segments);
+  return film;
 }
 
 }  // namespace waylight

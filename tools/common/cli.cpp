@@ -195,8 +195,8 @@ void ToolRun::print(const std::string& line) const {
   if (!quiet_) std::fputs((line + "\n").c_str(), stdout_taken_ ? stderr : stdout);
 }
 
-void ToolRun::write_stats(const nlohmann::ordered_json& stats) const {
-  if (!stats_path_.empty()) write_text_atomically(stats_path_, stats.dump(2) + "\n");
+void ToolRun::write_stats(const nlohmann::ordered_json& stats, const std::string& tag) const {
+  if (!stats_path_.empty()) write_text_atomically(tagged(stats_path_, tag), stats.dump(2) + "\n");
 }
 
 void ToolRun::stop_if_interrupted() const {
@@ -207,6 +207,12 @@ int run_tool(int argc, char** argv, const ToolInfo& info,
              const std::function<void(CLI::App&)>& declare,
              const std::function<void(ToolRun&)>& body) {
   return ToolRunner(info, declare).run(argc, argv, body);
+}
+
+std::string tagged(const std::string& path, const std::string& tag) {
+  if (tag.empty()) return path;
+  const std::filesystem::path name(path);
+  return name.parent_path() / (name.stem().string() + "-" + tag + name.extension().string());
 }
 
 const char* version() { return WAYLIGHT_VERSION; }

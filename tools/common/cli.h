@@ -40,8 +40,8 @@ class ToolRun {
   // One line of the human-readable summary: to stdout (stderr while the result goes there);
   // nothing with --quiet.
   void print(const std::string& line) const;
-  // Writes the file of --stats, if asked for.
-  void write_stats(const nlohmann::ordered_json& stats) const;
+  // Writes the file of --stats, if asked for; with a tag, its file tagged(..., tag).
+  void write_stats(const nlohmann::ordered_json& stats, const std::string& tag = {}) const;
   // For stages whose partial result is of no use.
   void stop_if_interrupted() const;
 
@@ -66,6 +66,9 @@ CLI::Option* as_output(CLI::Option* option, const std::vector<std::string>& endi
 CLI::Option* add_choice(CLI::App& app, const std::string& name,
                         const std::vector<std::string>& choices,
                         const std::function<void(size_t)>& choose, const std::string& description);
+
+// "image.exr" with tag "2s": "image-2s.exr"; without tag the path itself.
+std::string tagged(const std::string& path, const std::string& tag);
 
 const char* version();                   // of the release
 size_t peak_memory_bytes();              // of this process

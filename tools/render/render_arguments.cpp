@@ -119,6 +119,13 @@ void add_stopping(CLI::App& app, RenderOptions& options) {
   app.add_option("--error", options.error, "Estimated relMSE to reach")
       ->check(CLI::PositiveNumber)
       ->default_str("");
+  app.add_option("--checkpoints", options.checkpoints,
+                 "Seconds, separated by commas, at which the image so far and its --png and "
+                 "--stats are written too, as out-2s.exr; --time is the last of them by default")
+      ->type_name("SECONDS")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->default_str("");
 }
 
 void add_frame(CLI::App& app, RenderArguments& frame) {
@@ -169,6 +176,8 @@ RenderOptions complete_options(const RenderArguments& arguments) {
   read_crop(arguments.crop, options);
   read_share(arguments.bsdf_share, options);
   for (const std::string& name : arguments.aovs) add_aov(name, options.aovs);
+  const bool endless = options.spp == 0 && options.time == 0 && options.error == 0;
+  if (endless && !options.checkpoints.empty()) options.time = options.checkpoints.back();
   if (options.spp == 0 && options.time == 0 && options.error == 0) options.spp = kDefaultSpp;
   options.segments = !arguments.segments.empty();
   options.validate();

@@ -69,17 +69,21 @@ std::map<std::string, std::string> exr_attributes(const Provenance& p) {
   return attributes;
 }
 
-void report(const ToolRun& run, const Provenance& provenance, RenderMode mode,
-            const RenderSummary& s) {
+void report(const ToolRun& run, const RenderSummary& s) {
   run.print(fmt::format("{} x {} pixels, {:.1f} samples per pixel in {:.1f} s, {} rays/s", s.width,
                         s.height, s.mean_spp, s.seconds,
                         format_count(double(s.rays) / std::max(s.seconds, 1e-9))));
   run.print(
       fmt::format("estimated relMSE {:.4g}; {:.2f} edges per path; {:.0f} % of scatterings guided",
                   s.estimated_relmse, s.mean_path_length, 100 * s.guiding_share));
+}
+
+void write_stats(const ToolRun& run, const Provenance& provenance, RenderMode mode,
+                 const RenderSummary& s, const std::string& tag = {}) {
   nlohmann::ordered_json stats = stats_of(provenance);
   stats.update({{"mode", mode_name(mode)},
                 {"seconds", s.seconds},
+                {"cpu_seconds", s.cpu_seconds},
                 {"spp", s.mean_spp},
                 {"width", s.width},
                 {"height", s.height},
@@ -94,7 +98,7 @@ void report(const ToolRun& run, const Provenance& provenance, RenderMode mode,
                 {"invalid_samples", s.invalid_samples},
                 {"interrupted", s.interrupted},
                 {"peak_memory_bytes", peak_memory_bytes()}});
-  run.write_stats(stats);
+  run.write_stats(stats, tag);
 }
 
 }  // namespace
@@ -112,14 +116,24 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
         fmt::format("\"{}\": no emitter sends light into the scene; the image will be black",
                     arguments.scene.path));
   RenderSummary summary;
-  const Image image = render(*scene, loaded.caches(), options, &summary, run.control);
+  const auto write_images = [&](const Image& image, const std::string& tag) {
+    write_exr(tagged(arguments.output, tag), image, exr_attributes(provenance));
+    if (!arguments.png.empty()) write_png(tagged(arguments.png, tag), image);
+  };
+  const Image image =
+      render(*scene, loaded.caches(), options, &summary, run.control,
+             [&](double checkpoint, const Image& so_far, const RenderSummary& figures) {
+               const std::string tag = fmt::format("{:g}s", checkpoint);
+               write_images(so_far, tag);
+               write_stats(run, provenance, options.mode, figures, tag);
+             });
   if (summary.mean_spp < 1) run.stop_if_interrupted();  // a part of the pixels is no image
-  write_exr(arguments.output, image, exr_attributes(provenance));
-  if (!arguments.png.empty()) write_png(arguments.png, image);
+  write_images(image, "");
   if (!arguments.segments.empty())
     write_segment_table(arguments.segments, file_name(arguments.scene.path), method_name(options),
                         summary.segments);
-  report(run, provenance, options.mode, summary);
+  report(run, summary);
+  write_stats(run, provenance, options.mode, summary);
 }
 
 }  // namespace waylight
