@@ -6,12 +6,13 @@
 
 #include "libguide/base/error.h"
 #include "libguide/base/parallel.h"
+#include "libguide/render_pilot.h"
 #include "libguide/render_plan.h"
 #include "libguide/scene/camera.h"
+#include "libguide/transport/choice_pilot.h"
 #include "libguide/transport/film.h"
 #include "libguide/transport/path_tracer.h"
 #include "libguide/transport/pixel_estimate.h"
-#include "libguide/transport/share_pilot.h"
 
 namespace waylight {
 
@@ -84,17 +85,23 @@ class Renderer {
                  guided_media(scene, options)),
         camera_medium_(sensor_.medium != kNone ? sensor_.medium
                                                : scene.medium_at(camera_.origin())),
-        tracer_(scene, guiding_, tracer_options(scene, options), camera_medium_),
         film_(crop_.crop_width, crop_.crop_height),
         tiles_x_((film_.width() + kTile - 1) / kTile),
         tiles_y_((film_.height() + kTile - 1) / kTile),
-        segments_(options.segments ? size_t(tiles_x_) * tiles_y_ : 0) {}
+        segments_(options.segments ? size_t(tiles_x_) * tiles_y_ : 0) {
+    use(tracer_options(scene, options));
+  }
 
   void run(const CheckpointSink& on_checkpoint) {
     if (learns_shares(options_)) learn();
+    if (options_.mode == RenderMode::automatic)
+      use(choose_method(
+          scene_, sensor_, *tracer_, guiding_, options_, [&] { return control_.stopped(); },
+          &decision_));
     const double before_preview = clock_.seconds();
     estimate_pixels();
-    preview_seconds_ = clock_.seconds() - before_preview;
+    setup_seconds_ = clock_.seconds();
+    preview_seconds_ = setup_seconds_ - before_preview;
     for (int count = 1; count > 0 && !stopped_; count = next_pass()) {
       render_pass(count);
       report();
@@ -127,26 +134,36 @@ class Renderer {
     summary.copies_per_path = double(totals.copies) / samples;
     summary.invalid_samples = totals.invalid;
     summary.segments = segments();
+    summary.decision = decision_;
     return summary;
   }
 
  private:
   static constexpr int kMaxPass = 16;
   static constexpr double kTimeOfPilot = 20;
+  static constexpr int kPathsOfPilot = 16;
 
-  // At most a twentieth of the time goes into the pilot.
+  void use(const PathTracerOptions& options) {
+    tracer_.emplace(scene_, guiding_, options, camera_medium_);
+  }
+
+  // At most a twentieth of the time goes into the pilot, or a sixteenth of the paths.
   void learn() {
-    SharePilotOptions pilot;
-    pilot.seed = options_.seed;
-    pilot.default_share = default_share(options_.mode);
-    pilot.render_paths = uint64_t(options_.spp) * crop_.width * crop_.height;
     PathTracerOptions options = tracer_options(scene_, options_);
     options.max_split = 1;
-    const PathTracer unsplit(scene_, guiding_, options, camera_medium_);
-    guiding_.learned(learn_shares(unsplit, sensor_, guiding_.guide().cells.size(), pilot, [&] {
-      return control_.stopped() ||
-             (options_.time > 0 && clock_.seconds() > options_.time / kTimeOfPilot);
-    }));
+    options.directions.learned = false;
+    ChoicePilotOptions pilot;
+    pilot.guides = {options.directions.guide};
+    pilot.default_share = options.directions.bsdf_share;
+    pilot.max_paths = options_.spp > 0
+                          ? uint64_t(options_.spp) * crop_.width * crop_.height / kPathsOfPilot
+                          : std::numeric_limits<uint64_t>::max();
+    const PilotFrame frame(sensor_, options_.seed);
+    guiding_.learned(
+        learn_choices(tracer_->with(options), frame, guiding_.guide().cells.size(), pilot, [&] {
+          return control_.stopped() ||
+                 (options_.time > 0 && clock_.seconds() > options_.time / kTimeOfPilot);
+        }));
   }
 
   // Samples per pixel of the next pass; 0 when the render is done.
@@ -160,7 +177,7 @@ class Renderer {
     return count;
   }
 
-  double seconds_per_sample() const { return (clock_.seconds() - preview_seconds_) / done_; }
+  double seconds_per_sample() const { return (clock_.seconds() - setup_seconds_) / done_; }
 
   // Samples per pixel that fit into the time; 0 where less than half of one does.
   int passes_until(double seconds) const {
@@ -194,7 +211,7 @@ class Renderer {
   void estimate_pixels() {
     if (roulette_of(options_) != Roulette::guided) return;
     if (options_.pixel_estimate != PixelEstimateMode::preview) return;
-    const Preview preview = render_preview(tracer_, camera_, crop_, options_.seed, stopped_);
+    const Preview preview = render_preview(*tracer_, camera_, crop_, options_.seed, stopped_);
     estimates_ = PixelEstimates(preview);
     preview_rays_ = preview.rays;
   }
@@ -222,7 +239,7 @@ class Renderer {
       const Vec2 pixel = Vec2(film_x + 0.5f, film_y + 0.5f) + offset.offset;
       const Ray ray = camera_.ray(pixel, sampler.next_2d());
       context.filter_weight = offset.weight;
-      film_.at(x, y).add(tracer_.trace(ray, sampler, context), offset.weight);
+      film_.at(x, y).add(tracer_->trace(ray, sampler, context), offset.weight);
     }
     if (segments) segments->samples += count;
   }
@@ -245,7 +262,8 @@ class Renderer {
   FilterSampler filter_;
   GuidingCaches guiding_;
   int camera_medium_;
-  PathTracer tracer_;
+  std::optional<PathTracer> tracer_;
+  AutoDecision decision_;
   PixelEstimates estimates_;
   Film film_;
   int tiles_x_, tiles_y_;
@@ -253,7 +271,7 @@ class Renderer {
   Stopwatch clock_;
   int done_ = 0;           // samples per pixel
   size_t checkpoint_ = 0;  // the next
-  double seconds_ = 0, cpu_seconds_ = 0, preview_seconds_ = 0;
+  double seconds_ = 0, cpu_seconds_ = 0, setup_seconds_ = 0, preview_seconds_ = 0;
   uint64_t preview_rays_ = 0;
   std::atomic<bool> stopped_{false};
 };

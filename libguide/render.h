@@ -10,12 +10,15 @@
 #include "libguide/image/image.h"
 #include "libguide/records/aov_set.h"
 #include "libguide/records/brdf_cache.h"
+#include "libguide/records/method_figures.h"
 #include "libguide/scene/scene.h"
 #include "libguide/transport/segment_sums.h"
 
 namespace waylight {
 
-enum class RenderMode { bsdf, illumination, mixture, product, ris };
+// automatic: what a pilot finds to pay, of what the caches that are given make possible
+// (render_pilot.h).
+enum class RenderMode { bsdf, illumination, mixture, product, ris, automatic };
 
 inline bool needs_fits(RenderMode mode) {
   return mode == RenderMode::product || mode == RenderMode::mixture;
@@ -72,7 +75,7 @@ struct RenderOptions {
 };
 
 // What guides. `guide` may be empty unless needs_cache(), `brdf` is needed in modes product and
-// mixture only.
+// mixture only; mode automatic uses both where they are given.
 struct RenderCaches {
   const BrdfCache* brdf = nullptr;
   GuideCacheView guide;
@@ -93,7 +96,8 @@ struct RenderSummary {
   double estimated_relmse = 0;   // of the image, from its own variance
   uint64_t invalid_samples = 0;  // NaN or infinite, counted as zero
   bool interrupted = false;
-  SegmentSums segments;  // with options.segments only
+  SegmentSums segments;   // with options.segments only
+  AutoDecision decision;  // of mode automatic
 };
 
 // Gets the image and its figures when a checkpoint is reached, or, where the render ends before,

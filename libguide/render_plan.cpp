@@ -25,6 +25,8 @@ DirectionGuide guide_of(RenderMode mode) {
       return DirectionGuide::mixture;
     case RenderMode::ris:
       return DirectionGuide::resampled;
+    case RenderMode::automatic:
+      return DirectionGuide::product;
   }
   return DirectionGuide::none;
 }
@@ -81,6 +83,7 @@ bool insists_on_media(const RenderOptions& options) {
 }
 
 bool needs_cache(const RenderOptions& options) {
+  if (options.mode == RenderMode::automatic) return insists_on_media(options);
   return options.mode != RenderMode::bsdf || guides_media(options);
 }
 
@@ -118,6 +121,8 @@ void RenderOptions::validate() const {
           "--split needs guided roulette: --rr guided, or a mode other than bsdf");
   require(bsdf_share >= 0.01f && bsdf_share <= 1,
           "--bsdf-share must be learned or in [0.01, 1], not {}", bsdf_share);
+  require(mode != RenderMode::automatic || share_rule == ShareRule::automatic,
+          "--bsdf-share is not for --mode auto, which finds it out by itself");
   require(
       share_rule != ShareRule::learned || mode != RenderMode::ris,
       "--bsdf-share learned is not for --mode ris, whose share is that of the candidates: give a "
@@ -126,10 +131,14 @@ void RenderOptions::validate() const {
           candidates);
 }
 
-float default_share(RenderMode mode) { return needs_fits(mode) ? 0.3f : 0.5f; }
+float default_share(RenderMode mode) {
+  return needs_fits(mode) || mode == RenderMode::automatic ? 0.3f : 0.5f;
+}
 
 bool learns_shares(const RenderOptions& options) {
-  if (options.mode == RenderMode::bsdf || options.mode == RenderMode::ris) return false;
+  if (options.mode == RenderMode::bsdf || options.mode == RenderMode::ris ||
+      options.mode == RenderMode::automatic)
+    return false;
   if (options.share_rule == ShareRule::automatic) return options.mode == RenderMode::illumination;
   return options.share_rule == ShareRule::learned;
 }
@@ -141,6 +150,7 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
   result.directions.bsdf_share =
       options.share_rule == ShareRule::fixed ? options.bsdf_share : default_share(options.mode);
   result.directions.candidates = options.candidates;
+  result.directions.learned = learns_shares(options);
   result.phases.guide = phase_guide_of(options);
   if (options.direction == PhaseMode::mixture) result.phases.phase_share = 0.5f;
   result.flight = flight_of(options);

@@ -39,6 +39,9 @@ class CellGuide {
                                : light_.pdf(y);
     return pdf / kSteradianPerDiskArea;
   }
+  float light_pdf(const Vec3& wi) const {  // of the mixture alone
+    return light_.pdf(direction_to_disk(frame_.to_local(wi))) / kSteradianPerDiskArea;
+  }
 
   float product_z() const { return product_ ? product_->z() : 0; }  // of the two as they are
   bool valid() const { return light_.count() > 0; }

@@ -17,9 +17,7 @@ float mean_cosine(std::span<const GaussianComponent> lobes) {
   return std::max(cosine, kMinMeanCosine);
 }
 
-void open(std::optional<CellGuide>& guide, const GuideCacheView& cache, const Vec3& position,
-          const Vec3& normal) {
-  const CacheCell* cell = cache.query(position, normal);
+void open(std::optional<CellGuide>& guide, const GuideCacheView& cache, const CacheCell* cell) {
   if (!cell) return;
   guide.emplace(cache, *cell);
   if (!guide->valid()) guide.reset();
@@ -50,9 +48,11 @@ void DirectionSampler::prepare_guide(const GuidingCaches& caches, const SurfaceP
   const Vec3 normal = at.ns.dot(wo) < 0 ? Vec3(-at.ns) : at.ns;
   if (resolved_.bsdf.smooth_transmissive()) {
     known_ = prepare_sides(caches, at, normal);
+    choose(caches, cell());
   } else if (wo_local_.z() > 0) {
-    open(near_, caches.guide(), at.p, normal);
-    irradiance_ = irradiance(near_);
+    const CacheCell* known = caches.guide().query(at.p, normal);
+    irradiance_ = known ? known->irradiance : 0;
+    open(near_, caches.guide(), choose(caches, known));
     if (near_ &&
         (options_.guide == DirectionGuide::product || options_.guide == DirectionGuide::mixture))
       known_ = prepare_fit(caches, at);
@@ -60,7 +60,16 @@ void DirectionSampler::prepare_guide(const GuidingCaches& caches, const SurfaceP
   }
   if (!cell()) return;
   const float guided = known_ * guiding_trust(*cell());
-  bsdf_share_ = 1 - guided * (1 - caches.bsdf_share(*cell(), options_.bsdf_share));
+  bsdf_share_ = 1 - guided * (1 - options_.bsdf_share);
+}
+
+// What was learned of the cell holds from now on. Null where that is to leave it to the BSDF.
+const CacheCell* DirectionSampler::choose(const GuidingCaches& caches, const CacheCell* cell) {
+  if (!cell || !options_.learned) return cell;
+  const CellChoice choice = caches.choice(*cell, {options_.guide, options_.bsdf_share});
+  options_.guide = choice.guide;
+  options_.bsdf_share = choice.bsdf_share;
+  return choice.guide == DirectionGuide::none ? nullptr : cell;
 }
 
 // The side is chosen by what it should add: the BSDF's share of reflection or transmission times
@@ -68,8 +77,8 @@ void DirectionSampler::prepare_guide(const GuidingCaches& caches, const SurfaceP
 // BSDF on the sides that are known.
 float DirectionSampler::prepare_sides(const GuidingCaches& caches, const SurfacePoint& at,
                                       const Vec3& normal) {
-  open(near_, caches.guide(), at.p, normal);
-  open(far_, caches.guide(), at.p, -normal);
+  open(near_, caches.guide(), caches.guide().query(at.p, normal));
+  open(far_, caches.guide(), caches.guide().query(at.p, -normal));
   const SideShares shares = resolved_.bsdf.side_shares(wo_local_);
   const float near = shares.reflected * irradiance(near_);
   const float far = shares.transmitted * irradiance(far_);
@@ -135,7 +144,7 @@ std::optional<DirectionSample> DirectionSampler::sample_delta(float u) const {
   const Color weight = s->weight / delta_prob_;
   const Vec3 wi = resolved_.frame.to_world(s->wi);
   if (!same_side(wi, s->wi)) return std::nullopt;
-  return DirectionSample{wi, weight, 0, true, s->eta, weight, 0, 0, s->straight};
+  return DirectionSample{wi, weight, 0, true, s->eta, weight, 0, 0, 0, s->straight};
 }
 
 std::optional<DirectionSampler::Candidate> DirectionSampler::sample_smooth(float u, float u_lobe,
@@ -167,12 +176,18 @@ DirectionSample DirectionSampler::finish(const Candidate& c) const {
   const float bsdf_pdf = (1 - delta_prob_) * c.bsdf.pdf;
   const Color bsdf_weight = bsdf_pdf > 0 ? Color(c.bsdf.value / bsdf_pdf) : Color(Color::Ones());
   const float guide_pdf = known_ * c.guide_pdf + (1 - known_) * c.bsdf.pdf;
-  return {c.wi, c.bsdf.value / c.pdf, c.pdf, false, c.eta, bsdf_weight, c.bsdf.pdf, guide_pdf};
+  return {c.wi,        c.bsdf.value / c.pdf, c.pdf,     false,          c.eta,
+          bsdf_weight, c.bsdf.pdf,           guide_pdf, light_pdf(c.wi)};
 }
 
 std::optional<Vec3> DirectionSampler::sample_guide(float u, const Vec2& u2) const {
   if (u < near_prob_) return near_->sample(u / near_prob_, u2);
   return far_->sample((u - near_prob_) / (1 - near_prob_), u2);
+}
+
+float DirectionSampler::light_pdf(const Vec3& wi) const {
+  if (!options_.compares || !guided()) return 0;
+  return near_ && !far_ ? near_->light_pdf(wi) : guide_pdf(wi);
 }
 
 float DirectionSampler::guide_pdf(const Vec3& wi) const {

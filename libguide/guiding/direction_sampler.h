@@ -10,14 +10,12 @@
 
 namespace waylight {
 
-// What is sampled beside the BSDF: incident light, its product with the fitted BSDF or the mean of
-// both, or, of several candidates from BSDF and incident light, the one that promises most (RIS).
-enum class DirectionGuide { none, illumination, product, mixture, resampled };
-
 struct DirectionOptions {
   DirectionGuide guide = DirectionGuide::none;
   float bsdf_share = 0.5f;  // of smooth scattering where there is a guide, in (0, 1]
   int candidates = 2;       // of `resampled`, in [1, 64]
+  bool learned = false;   // guide and share of a cell are those learned for it, where there are any
+  bool compares = false;  // samples tell light_pdf
 };
 
 struct DirectionSample {
@@ -29,6 +27,7 @@ struct DirectionSample {
   Color bsdf_weight;  // the weight that BSDF sampling would have given; drives Russian roulette
   // Given the smooth part, per steradian: of BSDF sampling, and of what share 0 of it would leave.
   float bsdf_pdf = 0, guide_pdf = 0;
+  float light_pdf = 0;    // as guide_pdf, if the guide were the light alone; where asked for
   bool straight = false;  // through a pane: no vertex of the path
 };
 
@@ -80,9 +79,11 @@ class DirectionSampler {
 
   void prepare_guide(const GuidingCaches& caches, const SurfacePoint& at, const Vec3& wo);
   float prepare_sides(const GuidingCaches& caches, const SurfacePoint& at, const Vec3& normal);
+  const CacheCell* choose(const GuidingCaches& caches, const CacheCell* cell);
   float prepare_fit(const GuidingCaches& caches, const SurfacePoint& at);
   std::optional<Vec3> sample_guide(float u, const Vec2& u2) const;
   float guide_pdf(const Vec3& wi) const;
+  float light_pdf(const Vec3& wi) const;
   float density(float bsdf_pdf, float guide_pdf) const;
   std::optional<DirectionSample> sample_delta(float u) const;
   std::optional<Candidate> sample_smooth(float u, float u_lobe, const Vec2& u2) const;
@@ -92,7 +93,7 @@ class DirectionSampler {
   std::optional<DirectionSample> resample(float u, Sampler& sampler) const;
   bool same_side(const Vec3& wi, const Vec3& wi_local) const;
 
-  DirectionOptions options_;
+  DirectionOptions options_;  // guide and share as they are here
   ResolvedBsdf resolved_;
   Vec3 ng_, wo_local_;
   float ng_side_;  // -1 where the shading frame was flipped against ng, else 1

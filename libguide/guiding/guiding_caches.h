@@ -7,6 +7,7 @@
 
 #include "libguide/bsdf/textured_width.h"
 #include "libguide/cache/guide_cache_view.h"
+#include "libguide/guiding/cell_choices.h"
 #include "libguide/guiding/medium_guides.h"
 #include "libguide/records/brdf_cache.h"
 
@@ -33,14 +34,14 @@ class GuidingCaches {
   FittedLobe brdf_lobe(int material, bool from_behind, const Vec3& wo, const Vec2& uv) const;
   bool has_fits() const { return brdf_ != nullptr; }
 
-  // Share of BSDF sampling in a cell; `otherwise` as long as none has been learned.
-  float bsdf_share(const CacheCell& cell, float otherwise) const {
-    return shares_.empty() ? otherwise : shares_[index(cell)];
+  // What was learned of a cell; `otherwise` as long as nothing has been.
+  CellChoice choice(const CacheCell& cell, const CellChoice& otherwise) const {
+    return choices_.empty() ? otherwise : choices_[index(cell)];
   }
   uint32_t index(const CacheCell& cell) const {
     return static_cast<uint32_t>(&cell - guide_.cells.data());
   }
-  void learned(std::vector<float> shares) { shares_ = std::move(shares); }  // by cell
+  void learned(std::vector<CellChoice> choices) { choices_ = std::move(choices); }  // by cell
 
  private:
   const BrdfCache* brdf_ = nullptr;
@@ -49,7 +50,7 @@ class GuidingCaches {
   // By material, for its front and its back: index into brdf_->materials, or -1.
   std::vector<std::array<int, 2>> fit_of_material_;
   std::vector<std::optional<LobeWidth>> widths_;  // by brdf_->materials; where textured
-  std::vector<float> shares_;                     // by cell; empty: not learned
+  std::vector<CellChoice> choices_;               // by cell; empty: not learned
 };
 
 }  // namespace waylight

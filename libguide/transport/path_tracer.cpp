@@ -220,8 +220,8 @@ bool PathTracer::scatter(Walk& walk, State& state, const At& at,
   if (too_deep(state)) return false;
   const uint32_t cell = walk.context.guided ? cell_of(caches_, directions) : kNoCell;
   if (cell != kNoCell && !next->is_delta)
-    walk.context.guided->push_back(
-        {cell, next->bsdf_pdf, next->guide_pdf, next->pdf, luminance(walk.record.radiance)});
+    walk.context.guided->push_back({cell, next->bsdf_pdf, next->light_pdf, next->guide_pdf,
+                                    next->pdf, luminance(walk.record.radiance)});
   state.throughput *= next->weight;
   state.roulette_throughput *= next->bsdf_weight.min(1.0f);
   state.eta_scale *= next->eta * next->eta;

@@ -36,10 +36,10 @@ struct PathTracerOptions {
   bool hide_emitters = false;  // emitters and environment are invisible to the camera itself
 };
 
-// A guided vertex of a path, for learning (bsdf_shares.h).
+// A guided vertex of a path, for learning (cell_choices.h).
 struct GuidedVertex {
   uint32_t cell;
-  float bsdf_pdf, guide_pdf, pdf;
+  float bsdf_pdf, light_pdf, guide_pdf, pdf;
   float radiance_before;  // luminance of what the path had found when it left the vertex
 };
 
@@ -73,6 +73,11 @@ class PathTracer {
   PathTracer(const Scene& scene, const GuidingCaches& caches, const PathTracerOptions& options,
              int camera_medium = kNone)
       : scene_(scene), caches_(caches), options_(options), camera_medium_(camera_medium) {}
+
+  // The same scene and caches by other options.
+  PathTracer with(const PathTracerOptions& options) const {
+    return {scene_, caches_, options, camera_medium_};
+  }
 
   PathRecord trace(const Ray& ray, const Sampler& sampler, const PathContext& context = {}) const;
 

@@ -76,6 +76,14 @@ TEST_F(SlowRenderModes, ProductGuidingHasTheMeanOfPathTracing) {
   EXPECT_LT(share_beyond_three(image, *reference), 0.02);
 }
 
+TEST_F(SlowRenderModes, ModeAutoHasTheMeanOfPathTracing) {
+  RenderSummary summary;
+  const Image image = render_mode(*scene, *trained, RenderMode::automatic, 1024, 5, &summary);
+  EXPECT_LT(std::abs(mean_z(image, *reference)), 3.5);
+  EXPECT_LT(share_beyond_three(image, *reference), 0.02);
+  EXPECT_GT(summary.guiding_share, 0.5) << summary.decision.method;  // it pays behind a gap
+}
+
 TEST_F(SlowRenderModes, ResamplingHasTheMeanOfPathTracingWithFewCandidatesAndMany) {
   for (const int candidates : {1, 2, 5}) {
     RenderOptions options;

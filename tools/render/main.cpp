@@ -10,13 +10,14 @@ namespace {
 
 constexpr ToolInfo kTool = {
     "render", "Renders a scene, guided by caches or not",
-    "SCENE -o out.exr [--mode bsdf|illumination|mixture|product|ris] [--spp N | --time S | --error "
-    "E]",
+    "SCENE -o out.exr [--mode auto|bsdf|illumination|mixture|product|ris] [--spp N | --time S | "
+    "--error E]",
     R"(Modes. bsdf: path tracing with next-event estimation. illumination: directions come from the BSDF
 and from the cache of where light arrives (--cache). product: from the BSDF and the product of that
 and the fitted BSDF (--cache and --brdf); mixture: from the mean of the two instead. ris: of
---candidates from BSDF and cache, the one that BSDF times light favours. All have the same mean;
-caches change the noise alone.
+--candidates from BSDF and cache, the one that BSDF times light favours. auto: of what the caches that
+are given make possible, what a small render before finds to pay. All have the same mean; caches
+change the noise alone.
 
 In media, --distance says where along a ray a path scatters and --direction whereto; all modes but
 bsdf guide both where the cache holds media, and --mode bsdf --distance guided --direction product

@@ -13,7 +13,8 @@ namespace {
 constexpr int kDefaultSpp = 64;
 
 // In the order of RenderMode.
-const std::vector<std::string> kModes = {"bsdf", "illumination", "mixture", "product", "ris"};
+const std::vector<std::string> kModes = {"bsdf",    "illumination", "mixture",
+                                         "product", "ris",          "auto"};
 // In the order of DistanceMode and PhaseMode.
 const std::vector<std::string> kDistances = {"auto",        "standard",    "guided",
                                              "probability", "equiangular", "exponential"};

@@ -23,8 +23,10 @@ struct LoadedCaches {
   LoadedCaches(const RenderArguments& arguments, const SceneDescription& scene) {
     const RenderMode mode = arguments.options.mode;
     const std::string scene_name = file_name(arguments.scene.path);
-    if (!needs_cache(arguments.options)) return;
-    require(!arguments.cache.empty(), "--mode {} needs --cache", method_name(arguments.options));
+    const bool automatic = mode == RenderMode::automatic;
+    require(!needs_cache(arguments.options) || !arguments.cache.empty(), "--mode {} needs --cache",
+            method_name(arguments.options));
+    if (!(needs_cache(arguments.options) || automatic) || arguments.cache.empty()) return;
     guide.emplace(arguments.cache);
     require_same_scene(arguments.cache, guide->provenance(), scene_name, scene.hash,
                        SceneParts::all);
@@ -33,10 +35,10 @@ struct LoadedCaches {
           "\"{}\": is an importance cache, which guides photons (photon-trace --importance); "
           "render needs one trained on photons",
           arguments.cache);
-    if (guide->view().cells.empty() && guide->view().medium.cells.empty())
+    if (!automatic && guide->view().cells.empty() && guide->view().medium.cells.empty())
       fail("\"{}\": has no cells; train it on photons of the scene", arguments.cache);
     parents.push_back(parent_of(arguments.cache));
-    if (!needs_fits(mode)) return;
+    if (!needs_fits(mode) && !(automatic && !arguments.brdf.empty())) return;
     require(!arguments.brdf.empty(), "--mode {} needs --brdf", mode_name(mode));
     brdf.emplace(read_brdf(arguments.brdf));
     require_same_scene(arguments.brdf, brdf->provenance, scene_name, scene.hash,
@@ -78,6 +80,31 @@ void report(const ToolRun& run, const RenderSummary& s) {
                   s.estimated_relmse, s.mean_path_length, 100 * s.guiding_share));
 }
 
+// Variance times cost of each way over that of everything guided.
+void report(const ToolRun& run, const AutoDecision& decision) {
+  run.print(fmt::format("auto: {}; cells by bsdf {}, illumination {}, product {}; pilot {:.2f} s",
+                        decision.method, decision.cells_bsdf, decision.cells_illumination,
+                        decision.cells_product, decision.seconds));
+  for (const MethodFigures& m : decision.compared)
+    run.print(fmt::format("  {:<26} variance x cost {:.3f} +- {:.3f}", m.name,
+                          m.inefficiency() / decision.compared[0].inefficiency(), m.uncertainty));
+}
+
+nlohmann::ordered_json json_of(const AutoDecision& decision) {
+  nlohmann::ordered_json compared = nlohmann::ordered_json::array();
+  for (const MethodFigures& m : decision.compared)
+    compared.push_back({{"method", m.name},
+                        {"variance", m.variance},
+                        {"cost", m.cost},
+                        {"uncertainty", m.uncertainty}});
+  return {{"method", decision.method},
+          {"cells_bsdf", decision.cells_bsdf},
+          {"cells_illumination", decision.cells_illumination},
+          {"cells_product", decision.cells_product},
+          {"pilot_seconds", decision.seconds},
+          {"compared", compared}};
+}
+
 void write_stats(const ToolRun& run, const Provenance& provenance, RenderMode mode,
                  const RenderSummary& s, const std::string& tag = {}) {
   nlohmann::ordered_json stats = stats_of(provenance);
@@ -98,6 +125,7 @@ void write_stats(const ToolRun& run, const Provenance& provenance, RenderMode mo
                 {"invalid_samples", s.invalid_samples},
                 {"interrupted", s.interrupted},
                 {"peak_memory_bytes", peak_memory_bytes()}});
+  if (mode == RenderMode::automatic) stats["auto"] = json_of(s.decision);
   run.write_stats(stats, tag);
 }
 
@@ -133,6 +161,7 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
     write_segment_table(arguments.segments, file_name(arguments.scene.path), method_name(options),
                         summary.segments);
   report(run, summary);
+  if (options.mode == RenderMode::automatic) report(run, summary.decision);
   write_stats(run, provenance, options.mode, summary);
 }
 

@@ -1,0 +1,184 @@
+#include "libguide/render_pilot.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "libguide/render_plan.h"
+#include "libguide/transport/choice_pilot.h"
+#include "libguide/transport/method_pilot.h"
+
+namespace waylight {
+namespace {
+
+constexpr double kPilotShare = 1 / 32.0;  // of the render's paths or time
+constexpr double kLearningShare = 0.4;    // of that, for the choices of the cells
+constexpr uint64_t kMaxPaths = 1 << 20;
+constexpr double kLeastGain = 0.01;
+constexpr int kSplit = 8;
+
+// A change to what guides everything.
+struct Alternative {
+  const char* name;
+  void (*apply)(PathTracerOptions&);
+};
+
+constexpr Alternative kRoulette = {"roulette by throughput", [](PathTracerOptions& o) {
+                                     o.roulette = Roulette::throughput;
+                                     o.max_split = 1;
+                                   }};
+constexpr Alternative kSplitting = {"splitting", [](PathTracerOptions& o) {
+                                      if (o.roulette == Roulette::guided) o.max_split = kSplit;
+                                    }};
+constexpr Alternative kResampling = {"ris", [](PathTracerOptions& o) {
+                                       o.directions.guide = DirectionGuide::resampled;
+                                       o.directions.bsdf_share = default_share(RenderMode::ris);
+                                       o.directions.learned = false;
+                                     }};
+constexpr Alternative kPhase = {"phase function",
+                                [](PathTracerOptions& o) { o.phases.guide = PhaseGuide::none; }};
+constexpr Alternative kDistance = {"standard distances",
+                                   [](PathTracerOptions& o) { o.flight = FlightMethod::standard; }};
+constexpr Alternative kGrids = {"guided distances in grids",
+                                [](PathTracerOptions& o) { o.flights.guides_grids = true; }};
+
+bool has_media(const Scene& scene, bool homogeneous) {
+  for (int i = 0; i < static_cast<int>(scene.description().media.size()); ++i)
+    if (scene.medium(i).homogeneous() == homogeneous) return true;
+  return false;
+}
+
+// What the options leave open, and the caches make possible.
+std::vector<Alternative> alternatives(const Scene& scene, const GuidingCaches& caches,
+                                      const RenderOptions& options) {
+  std::vector<Alternative> open;
+  if (options.roulette == RouletteMode::automatic) open.push_back(kRoulette);
+  if (options.split == 1 && roulette_of(options) == Roulette::guided) open.push_back(kSplitting);
+  if (caches.guided()) open.push_back(kResampling);
+  if (caches.media().empty()) return open;
+  if (options.direction == PhaseMode::automatic) open.push_back(kPhase);
+  if (options.distance != DistanceMode::automatic) return open;
+  if (has_media(scene, true)) open.push_back(kDistance);
+  if (has_media(scene, false)) open.push_back(kGrids);
+  return open;
+}
+
+PilotArm arm_of(const Alternative& change, PathTracerOptions options) {
+  change.apply(options);
+  return {{change.name}, options};
+}
+
+// Nothing guided but what the options ask for by name.
+PathTracerOptions plain(const RenderOptions& options, PathTracerOptions tracing) {
+  tracing.directions = {};
+  if (options.direction == PhaseMode::automatic) kPhase.apply(tracing);
+  if (options.distance == DistanceMode::automatic) kDistance.apply(tracing);
+  if (options.roulette == RouletteMode::automatic) kRoulette.apply(tracing);
+  return tracing;
+}
+
+class MethodChoice {
+ public:
+  MethodChoice(const RenderOptions& options, const SensorDescription& sensor,
+               const PathTracer& tracer, const std::function<bool()>& stop)
+      : options_(options), frame_(sensor, options.seed), tracer_(tracer), stop_(stop) {
+    const double paths = double(options.spp) * sensor.film.width * sensor.film.height;
+    if (options.spp > 0)
+      max_paths_ = static_cast<uint64_t>(std::min(double(kMaxPaths), kPilotShare * paths));
+  }
+
+  std::vector<CellChoice> learn(PathTracerOptions tracing, const GuidingCaches& caches) const {
+    ChoicePilotOptions pilot;
+    pilot.guides = {DirectionGuide::illumination};
+    if (caches.has_fits()) pilot.guides.push_back(DirectionGuide::product);
+    tracing.directions.guide = pilot.guides.back();
+    tracing.directions.compares = caches.has_fits();
+    tracing.max_split = 1;
+    pilot.default_share = tracing.directions.bsdf_share;
+    pilot.priced = true;
+    pilot.max_paths = static_cast<uint64_t>(kLearningShare * double(max_paths_));
+    return learn_choices(tracer_.with(tracing), frame_, caches.guide().cells.size(), pilot,
+                         [&] { return stop_() || late(kLearningShare); });
+  }
+
+  bool compare(std::vector<PilotArm>& arms) const {
+    MethodPilotOptions pilot;
+    pilot.max_paths = static_cast<uint64_t>((1 - kLearningShare) * double(max_paths_));
+    pilot.timed = options_.time > 0;
+    return measure(tracer_, arms, frame_, pilot, [&] { return stop_() || late(1); });
+  }
+
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  bool late(double share) const {
+    return options_.time > 0 && seconds() > share * kPilotShare * options_.time;
+  }
+
+  const RenderOptions& options_;
+  PilotFrame frame_;
+  const PathTracer& tracer_;
+  const std::function<bool()>& stop_;
+  uint64_t max_paths_ = kMaxPaths;  // a million
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void count_cells(const std::vector<CellChoice>& choices, AutoDecision* decision) {
+  for (const CellChoice& choice : choices) {
+    if (choice.guide == DirectionGuide::none) ++decision->cells_bsdf;
+    if (choice.guide == DirectionGuide::illumination) ++decision->cells_illumination;
+    if (choice.guide == DirectionGuide::product) ++decision->cells_product;
+  }
+}
+
+// arms: everything guided, nothing, and the changes in the order of `open`. A gain is the logarithm
+// of a ratio of variance times cost.
+PathTracerOptions decide(const std::vector<PilotArm>& arms, const std::vector<Alternative>& open,
+                         AutoDecision* decision) {
+  const auto gain = [&](size_t i) {
+    return std::log(arms[0].figures.inefficiency() / arms[i].figures.inefficiency());
+  };
+  PathTracerOptions chosen = arms[0].options;
+  decision->method = arms[0].figures.name;
+  double best = 0;
+  for (size_t i = 0; i < open.size(); ++i) {
+    const double g = gain(i + 2);
+    if (!(g > std::max(arms[i + 2].figures.uncertainty, kLeastGain))) continue;
+    open[i].apply(chosen);
+    decision->method += std::string(", ") + open[i].name;
+    best = std::max(best, g);
+  }
+  if (!(gain(1) > std::max(best, arms[1].figures.uncertainty))) return chosen;
+  decision->method = arms[1].figures.name;
+  return arms[1].options;
+}
+
+}  // namespace
+
+PathTracerOptions choose_method(const Scene& scene, const SensorDescription& sensor,
+                                const PathTracer& tracer, GuidingCaches& guiding,
+                                const RenderOptions& options, const std::function<bool()>& stop,
+                                AutoDecision* decision) {
+  PathTracerOptions everything = tracer_options(scene, options);
+  if (!guiding.guided() && guiding.media().empty()) return plain(options, everything);
+  if (!guiding.has_fits()) everything.directions.guide = DirectionGuide::illumination;
+  const MethodChoice pilot(options, sensor, tracer, stop);
+  std::vector<CellChoice> choices;
+  if (guiding.guided()) choices = pilot.learn(everything, guiding);
+  count_cells(choices, decision);
+  guiding.learned(std::move(choices));
+  everything.directions.learned = true;
+
+  const std::vector<Alternative> open = alternatives(scene, guiding, options);
+  std::vector<PilotArm> arms = {{{"guided"}, everything}, {{"bsdf"}, plain(options, everything)}};
+  for (const Alternative& change : open) arms.push_back(arm_of(change, everything));
+  decision->method = arms[0].figures.name;
+  const bool measured = pilot.compare(arms);
+  decision->seconds = pilot.seconds();
+  if (!measured) return everything;
+  for (const PilotArm& arm : arms) decision->compared.push_back(arm.figures);
+  return decide(arms, open, decision);
+}
+
+}  // namespace waylight

@@ -1,0 +1,32 @@
+#pragma once
+// Which of several ways to trace paths has the least variance times cost, from a small render.
+
+#include <functional>
+#include <vector>
+
+#include "libguide/records/method_figures.h"
+#include "libguide/transport/path_tracer.h"
+#include "libguide/transport/pilot_frame.h"
+
+namespace waylight {
+
+struct PilotArm {
+  MethodFigures figures;
+  PathTracerOptions options;
+};
+
+struct MethodPilotOptions {
+  uint64_t max_paths = 0;  // in all
+  // Cost is processor time; else rays and vertices with a guide, which is the same every time.
+  bool timed = false;
+};
+
+// Fills in the figures of all arms, tracing by their options, with the same places of the frame for
+// each. The variance of an arm is that between two paths of a pixel, and at least what its
+// difference from the first arm tells: paths that are found once in N have at least N times their
+// part of the mean, squared, as second moment, also while none has been found. Equal at any thread
+// count unless timed or stopped. False where not even one round could be traced.
+bool measure(const PathTracer& tracer, std::vector<PilotArm>& arms, const PilotFrame& frame,
+             const MethodPilotOptions& options, const std::function<bool()>& stop);
+
+}  // namespace waylight
