@@ -14,21 +14,23 @@ constexpr double kPilotShare = 1 / 32.0;  // of the render's paths or time
 constexpr double kLearningShare = 0.4;    // of that, for the choices of the cells
 constexpr uint64_t kMaxPaths = 1 << 20;
 constexpr double kLeastGain = 0.01;
+constexpr double kCertainty = 1.5;  // standard errors that a gain has to be worth
 constexpr int kSplit = 8;
 
 // A change to what guides everything.
 struct Alternative {
   const char* name;
   void (*apply)(PathTracerOptions&);
+  bool (*excluded)(const PathTracerOptions&) = nullptr;  // makes no sense with what was taken
 };
 
 constexpr Alternative kRoulette = {"roulette by throughput", [](PathTracerOptions& o) {
                                      o.roulette = Roulette::throughput;
                                      o.max_split = 1;
                                    }};
-constexpr Alternative kSplitting = {"splitting", [](PathTracerOptions& o) {
-                                      if (o.roulette == Roulette::guided) o.max_split = kSplit;
-                                    }};
+constexpr Alternative kSplitting = {
+    "splitting", [](PathTracerOptions& o) { o.max_split = kSplit; },
+    [](const PathTracerOptions& o) { return o.roulette != Roulette::guided; }};
 constexpr Alternative kResampling = {"ris", [](PathTracerOptions& o) {
                                        o.directions.guide = DirectionGuide::resampled;
                                        o.directions.bsdf_share = default_share(RenderMode::ris);
@@ -144,7 +146,8 @@ PathTracerOptions decide(const std::vector<PilotArm>& arms, const std::vector<Al
   double best = 0;
   for (size_t i = 0; i < open.size(); ++i) {
     const double g = gain(i + 2);
-    if (!(g > std::max(arms[i + 2].figures.uncertainty, kLeastGain))) continue;
+    if (!(g > std::max(kCertainty * arms[i + 2].figures.uncertainty, kLeastGain))) continue;
+    if (open[i].excluded && open[i].excluded(chosen)) continue;
     open[i].apply(chosen);
     decision->method += std::string(", ") + open[i].name;
     best = std::max(best, g);

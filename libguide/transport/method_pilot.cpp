@@ -12,10 +12,8 @@ namespace {
 constexpr int kTilesPerTurn = 32;
 constexpr int kMaxRounds = 8;            // over the whole frame
 constexpr double kRelativeFloor = 0.01;  // of relMSE
-constexpr double kGuidedVertex = 0.4;    // cost over a vertex without guide, in rays
-// What the difference of two arms says of a variance counts from this many times the arm's own
-// figure on: below it is the noise of both.
-constexpr double kMissing = 1.5;
+// Cost over a vertex without guide and over a standard flight, in rays.
+constexpr double kGuidedVertex = 0.4, kGuidedFlight = 2;
 
 double thread_seconds() {
   timespec now;
@@ -43,7 +41,9 @@ class MethodPilot {
 
   std::vector<TileSums> trace_tile(int tile, int round) const {
     std::vector<TileSums> sums(tracers_.size());
-    for (size_t i = 0; i < tracers_.size(); ++i) {
+    // Each arm in turn is first, and finds what it reads not yet in the processor's caches.
+    for (size_t k = 0; k < tracers_.size(); ++k) {
+      const size_t i = (k + size_t(tile) + size_t(round)) % tracers_.size();
       const double start = thread_seconds();
       frame_.for_places(tile, [&](int place) { trace_pair(tracers_[i], place, round, sums[i]); });
       if (timed_) sums[i].cost = thread_seconds() - start;
@@ -60,7 +60,7 @@ class MethodPilot {
       const PathRecord path = tracer.trace(ray, sampler);
       const float value = luminance(path.radiance);
       radiance[s] = std::isfinite(value) ? value : 0;
-      sums.cost += path.rays + kGuidedVertex * path.guided;
+      sums.cost += path.rays + kGuidedVertex * path.guided + kGuidedFlight * path.guided_flights;
     }
     ++sums.pairs;
     sums.sum += radiance[0] + radiance[1];
@@ -81,56 +81,100 @@ double denominator(const std::vector<TileSums>& arms) {
   return median * median + kRelativeFloor;
 }
 
-// Relative variances by tile, and sums over tiles.
+// What an arm missed of the light that another one found. Paths that are found once in N carry N
+// times their part of the mean each, so their second moment is at least N times its square, also
+// while none has been found. The other's own noise is taken off.
+class Missed {
+ public:
+  // difference: of the means, this arm's minus the other's.
+  void add(double difference, double paths, double variance_of_other) {
+    if (difference < 0) sum_ += paths * difference * difference - variance_of_other;
+    ++count_;
+  }
+  double variance() const { return sum_ / count_; }
+
+ private:
+  double sum_ = 0, count_ = 0;
+};
+
+// Relative variances and costs by tile, and what is missed by tile and by turn. All arms are held
+// against the first, and the first against the second.
 class ArmFigures {
  public:
-  explicit ArmFigures(size_t arms) : variances_(arms), differences_(arms), costs_(arms) {}
+  explicit ArmFigures(size_t arms) : arms_(arms), turn_(arms) {}
 
   void add(const std::vector<TileSums>& tile) {
-    const double scale = 1 / denominator(tile);
+    const double scale = 1 / denominator(tile), paths = 2 * tile[0].pairs;
     for (size_t i = 0; i < tile.size(); ++i) {
-      variances_[i].push_back(tile[i].variance() * scale);
-      const double difference = tile[i].mean() - tile[0].mean();
-      differences_[i] += 2 * tile[i].pairs * difference * difference * scale;
-      costs_[i] += tile[i].cost;
+      const Unit unit{tile[i].mean() * std::sqrt(scale), tile[i].variance() * scale};
+      arms_[i].variances.push_back(unit.variance);
+      arms_[i].costs.push_back(tile[i].cost / paths);
+      turn_[i].mean += paths * unit.mean;
+      turn_[i].variance += paths * unit.variance;
+      tile_.push_back(unit);
     }
-    pairs_ += tile[0].pairs;
+    compare(tile_, paths, &Arm::missed_by_tile);
+    tile_.clear();
+    turn_paths_ += paths;
+  }
+
+  void end_turn() {
+    for (Unit& unit : turn_) unit.mean /= turn_paths_, unit.variance /= turn_paths_;
+    compare(turn_, turn_paths_, &Arm::missed_by_turn);
+    turn_.assign(turn_.size(), {});
+    turn_paths_ = 0;
   }
 
   void report(std::vector<PilotArm>& arms) const {
     for (size_t i = 0; i < arms.size(); ++i) {
       arms[i].figures.variance = variance(i);
-      arms[i].figures.cost = costs_[i] / (2 * pairs_);
+      arms[i].figures.cost = mean(arms_[i].costs);
       arms[i].figures.uncertainty = uncertainty(i);
     }
   }
 
  private:
-  double own(size_t i) const {
+  static double mean(const std::vector<double>& values) {
     double sum = 0;
-    for (const double v : variances_[i]) sum += v;
-    return sum / double(variances_[i].size());
+    for (const double v : values) sum += v;
+    return sum / double(values.size());
+  }
+  // Mean of the places, relative to their value, and variance of a path.
+  struct Unit {
+    double mean = 0, variance = 0;
+  };
+  struct Arm {
+    std::vector<double> variances, costs;  // by tile
+    Missed missed_by_tile, missed_by_turn;
+  };
+
+  void compare(const std::vector<Unit>& units, double paths, Missed Arm::*missed) {
+    for (size_t i = 0; i < units.size(); ++i) {
+      const Unit& other = units[i == 0 && units.size() > 1 ? 1 : 0];
+      (arms_[i].*missed).add(units[i].mean - other.mean, paths, other.variance);
+    }
   }
   double variance(size_t i) const {
-    const size_t other = i == 0 ? std::min<size_t>(1, variances_.size() - 1) : 0;
-    const double difference = differences_[std::max(i, other)] / double(variances_[0].size());
-    const double told = difference - own(other);
-    return told > kMissing * own(i) ? told : own(i);
+    return std::max({mean(arms_[i].variances), arms_[i].missed_by_tile.variance(),
+                     arms_[i].missed_by_turn.variance()});
   }
   double uncertainty(size_t i) const {
-    const double n = double(variances_[0].size()), own_mean = own(i), first_mean = own(0);
-    if (!(own_mean > 0) || !(first_mean > 0)) return 1;
+    const Arm &arm = arms_[i], &first = arms_[0];
+    const double v = mean(arm.variances), v0 = mean(first.variances);
+    const double c = mean(arm.costs), c0 = mean(first.costs);
+    if (!(v > 0) || !(v0 > 0)) return 1;
     double sum = 0;
-    for (size_t t = 0; t < variances_[i].size(); ++t) {
-      const double d = variances_[i][t] / own_mean - variances_[0][t] / first_mean;
+    for (size_t t = 0; t < arm.costs.size(); ++t) {
+      const double d =
+          arm.variances[t] / v - first.variances[t] / v0 + arm.costs[t] / c - first.costs[t] / c0;
       sum += d * d;
     }
-    return std::sqrt(sum) / n;
+    return std::sqrt(sum) / double(arm.costs.size());
   }
 
-  std::vector<std::vector<double>> variances_;
-  std::vector<double> differences_, costs_;
-  double pairs_ = 0;
+  std::vector<Arm> arms_;
+  std::vector<Unit> tile_, turn_;
+  double turn_paths_ = 0;
 };
 
 }  // namespace
@@ -149,6 +193,7 @@ bool measure(const PathTracer& tracer, std::vector<PilotArm>& arms, const PilotF
       tiles[i] = pilot.trace_tile(turns.tile(turn, int(i)), turns.round(turn));
     });
     for (int i = 0; i < turns.tiles(turn); ++i) figures.add(tiles[i]);
+    figures.end_turn();
   }
   figures.report(arms);
   return true;

@@ -58,7 +58,7 @@ PathVertex PathTracer::next_vertex(Walk& walk, State& state) const {
     ++walk.record.rays;
     std::optional<SurfacePoint> at = scene_.intersect(state.ray);
     if (state.medium != kNone)
-      if (const auto event = fly(state, at ? at->t : kInfinity, crossed)) return *event;
+      if (const auto event = fly(walk, state, at ? at->t : kInfinity, crossed)) return *event;
     if (!at) {
       add_environment(walk, state);
       return {};
@@ -75,9 +75,10 @@ PathVertex PathTracer::next_vertex(Walk& walk, State& state) const {
 }
 
 // One flight through the medium of the ray; empty when it passes.
-std::optional<MediumPoint> PathTracer::fly(State& state, float t_max, float crossed) const {
+std::optional<MediumPoint> PathTracer::fly(Walk& walk, State& state, float t_max,
+                                           float crossed) const {
   const MediumTracker& medium = scene_.medium(state.medium);
-  const Flight end = flight(state, medium, t_max);
+  const Flight end = flight(walk, state, medium, t_max);
   state.throughput *= end.weight;
   if (!end.scattered) return std::nullopt;
   state.weigh(end.here.albedo);
@@ -86,10 +87,12 @@ std::optional<MediumPoint> PathTracer::fly(State& state, float t_max, float cros
 
 // Light straight from emitters counts at the end of a flight where no next-event estimation at its
 // start has sampled it.
-Flight PathTracer::flight(State& state, const MediumTracker& medium, float t_max) const {
+Flight PathTracer::flight(Walk& walk, State& state, const MediumTracker& medium,
+                          float t_max) const {
   const FlightMethod method = options_.flight;
   if (method == FlightMethod::standard || (needs_guides(method) && caches_.media().empty()))
     return medium.fly(state.ray, t_max, state.throughput, state.sampler);
+  ++walk.record.guided_flights;
   const Color channels = channel_probs(state.throughput);
   const FlightSpace space{medium, caches_.media(), state.medium,  state.ray,
                           t_max,  channels,        state.specular};

@@ -65,6 +65,7 @@ struct PathRecord {
   uint32_t guided = 0;       // smooth ones that had a guide
   float bsdf_share = 0;      // sum of the shares of BSDF sampling at smooth ones
   uint32_t rays = 0;
+  uint32_t guided_flights = 0;  // through media, by other than the standard method
 };
 
 class PathTracer {
@@ -86,8 +87,8 @@ class PathTracer {
   struct Walk;
   bool advance(Walk& walk, State& state) const;
   PathVertex next_vertex(Walk& walk, State& state) const;
-  std::optional<MediumPoint> fly(State& state, float t_max, float crossed) const;
-  Flight flight(State& state, const MediumTracker& medium, float t_max) const;
+  std::optional<MediumPoint> fly(Walk& walk, State& state, float t_max, float crossed) const;
+  Flight flight(Walk& walk, State& state, const MediumTracker& medium, float t_max) const;
   bool visit(Walk& walk, State& state, const SurfacePoint& at) const;
   bool visit(Walk& walk, State& state, const MediumPoint& at) const;
   bool too_deep(const State& state) const;
