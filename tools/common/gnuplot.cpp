@@ -1,4 +1,4 @@
-#include "tools/chart/gnuplot.h"
+#include "tools/common/gnuplot.h"
 
 #include <array>
 #include <cmath>
@@ -76,13 +76,16 @@ std::string label_of(const std::string& column) {
   if (column == "mse") return "MSE";
   if (column == "edges") return "path edges";
   if (column == "contribution") return "share of the luminance";
+  if (column == "sample_ms") return "time per sample of every pixel (ms)";
+  if (column == "path_length") return "edges per path";
+  if (column == "memory_bytes") return "peak memory (bytes)";
   return column;
 }
 
 std::string data_block(size_t index, const ChartLine& line) {
   std::string block = fmt::format("$line{} << EOD\n", index);
   for (const ChartPoint& p : line.points)
-    block += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.low, p.high);
+    block += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} \"{}\"\n", p.x, p.y, p.low, p.high, p.label);
   return block + "EOD\n";
 }
 
@@ -112,7 +115,35 @@ std::string plot_command(const std::vector<ChartLine>& lines, bool slope) {
         "pointsize 0.9 title {}",
         i ? ", " : "", i, kColors[i % kColors.size()], kPointTypes[i % kPointTypes.size()],
         quoted(lines[i].name));
-  return command + "\n";
+  return command;
+}
+
+std::string label_plots(const std::vector<ChartLine>& lines) {
+  std::string command;
+  for (size_t i = 0; i < lines.size(); ++i)
+    command += fmt::format(
+        ", $line{} using 1:2:5 with labels left offset 0.8,0.6 textcolor rgb '{}' notitle", i,
+        kColors[i % kColors.size()]);
+  return command;
+}
+
+// Each line's bar stands at its own number, with its range over seeds.
+std::string bar_commands(const std::vector<ChartLine>& lines) {
+  std::string ticks, plots;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const char* separator = i ? ", " : "";
+    ticks += fmt::format("{}{} {}", separator, quoted(lines[i].name), i);
+    plots += fmt::format("{}$line{} using ({}):2 with boxes linecolor rgb '{}' notitle", separator,
+                         i, i, kColors[i % kColors.size()]);
+    if (has_band(lines[i]))
+      plots += fmt::format(
+          ", $line{} using ({}):2:3:4 with yerrorbars linecolor rgb '#202020' pointtype 0 notitle",
+          i, i);
+  }
+  return fmt::format(
+      "set boxwidth 0.6\nset style fill solid 0.85\nset xrange [-0.6:{}]\nset xtics ({}) scale 0\n"
+      "set grid noxtics\nplot {}\n",
+      lines.size() - 0.4, ticks, plots);
 }
 
 }  // namespace
@@ -141,17 +172,21 @@ std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartL
   std::string script = terminal(format) + "set output " + quoted(output) + "\n";
   for (size_t i = 0; i < lines.size(); ++i) script += data_block(i, lines[i]);
   script += "set encoding utf8\nset samples 200\n";
-  script += axis_commands('x', x, options.is_linear('x'));
+  if (!options.bars) script += axis_commands('x', x, options.is_linear('x'));
   script += axis_commands('y', y, options.is_linear('y'));
   const std::string x_label =
       options.preprocess ? "preprocessing and render time (s)" : label_of(options.x);
-  script += "set xlabel " + quoted(x_label) + "\nset ylabel " + quoted(label_of(options.y)) + "\n";
+  if (!options.bars) script += "set xlabel " + quoted(x_label) + "\n";
+  script += "set ylabel " + quoted(label_of(options.y)) + "\n";
   if (!options.title.empty()) script += "set title " + quoted(options.title) + "\n";
   script +=
       "set border 3 linecolor rgb '#404040'\nset tics nomirror out textcolor rgb '#202020'\n"
       "set grid linecolor rgb '#dcdcdc' linewidth 1 linetype 1\n"
       "set key top right opaque samplen 2.5 spacing 1.3 width 1 noautotitle\n";
-  return script + plot_command(lines, options.has_slope());
+  if (options.bars) return script + bar_commands(lines);
+  script += plot_command(lines, options.has_slope());
+  if (!options.labels.empty()) script += label_plots(lines);
+  return script + "\n";
 }
 
 void run_gnuplot(const std::string& script) {

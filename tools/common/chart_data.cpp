@@ -1,9 +1,6 @@
-#include "tools/chart/chart_data.h"
-
-#include <fmt/ranges.h>
+#include "tools/common/chart_data.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -16,24 +13,9 @@ namespace {
 constexpr double kEqualSeconds = 0.05;  // relative
 
 struct Row {
-  std::string scene, method;
+  std::string scene, method, label;
   double x, y;
 };
-
-int column_of(const CsvTable& table, const std::string& name, const std::string& path) {
-  const int column = table.find(name);
-  if (column < 0)
-    fail("\"{}\": has no column \"{}\" among {}", path, name, fmt::join(table.columns, ", "));
-  return column;
-}
-
-double number_in(const std::string& cell, const std::string& what) {
-  double value = 0;
-  const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || stop != cell.data() + cell.size() || !std::isfinite(value))
-    fail("{} is \"{}\", not a number", what, cell);
-  return value;
-}
 
 double coordinate_in(const std::string& cell, bool linear, const std::string& what) {
   const double value = number_in(cell, what);
@@ -46,12 +28,13 @@ void read_rows(const std::string& path, const ChartOptions& options, std::vector
   const int x = column_of(table, options.x, path), y = column_of(table, options.y, path);
   const int method = column_of(table, options.lines, path), scene = table.find("scene");
   const int preprocess = options.preprocess ? column_of(table, "preprocess_seconds", path) : -1;
+  const int label = options.labels.empty() ? -1 : column_of(table, options.labels, path);
   for (size_t i = 0; i < table.rows.size(); ++i) {
     const std::vector<std::string>& cells = table.rows[i];
     const auto what = [&](const std::string& column) {
       return fmt::format("\"{}\": record {}: {}", path, i + 2, column);
     };
-    Row row{scene < 0 ? "" : cells[scene], cells[method],
+    Row row{scene < 0 ? "" : cells[scene], cells[method], label < 0 ? "" : cells[label],
             coordinate_in(cells[x], options.is_linear('x'), what(options.x)),
             coordinate_in(cells[y], options.is_linear('y'), what(options.y))};
     if (preprocess >= 0 && !cells[preprocess].empty())
@@ -62,7 +45,7 @@ void read_rows(const std::string& path, const ChartOptions& options, std::vector
 
 // The geometric mean of y, or on a linear axis the arithmetic one.
 ChartPoint merge(const Row* first, const Row* last, bool linear_y) {
-  ChartPoint point{first->x, 0, first->y, first->y, static_cast<int>(last - first)};
+  ChartPoint point{first->x, 0, first->y, first->y, static_cast<int>(last - first), first->label};
   for (const Row* row = first; row != last; ++row) {
     point.y += (linear_y ? row->y : std::log(row->y)) / point.rows;
     point.low = std::min(point.low, row->y);
@@ -78,7 +61,9 @@ std::vector<ChartPoint> merge_equal(std::vector<Row> rows, double tolerance, boo
   std::vector<ChartPoint> points;
   for (size_t begin = 0; begin < rows.size();) {
     size_t end = begin + 1;
-    while (end < rows.size() && rows[end].x - rows[begin].x <= rows[begin].x * tolerance) ++end;
+    while (end < rows.size() && rows[end].label == rows[begin].label &&
+           rows[end].x - rows[begin].x <= rows[begin].x * tolerance)
+      ++end;
     points.push_back(merge(&rows[begin], &rows[begin] + (end - begin), linear_y));
     begin = end;
   }
@@ -92,6 +77,7 @@ void ChartOptions::validate() const {
   for (char axis : linear)
     require(axis == 'x' || axis == 'y', "--linear {} is not x, y or xy", linear);
   require(!preprocess || x == "seconds", "--preprocess needs --x seconds");
+  require(!bars || !preprocess, "--bars has no time to add --preprocess to");
   require(output.ends_with(".svg"), "-o \"{}\" does not end in .svg", output);
 }
 
@@ -130,6 +116,8 @@ std::vector<ChartLine> chart_lines(const ChartOptions& options) {
   for (size_t i = 0; i < names.size(); ++i)
     lines.push_back({names[i], merge_equal(groups[i], options.x == "seconds" ? kEqualSeconds : 0,
                                            options.is_linear('y'))});
+  if (options.bars)
+    for (ChartLine& line : lines) line.points = {line.points.back()};
   return lines;
 }
 

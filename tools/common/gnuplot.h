@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/chart/chart_data.h"
+#include "tools/common/chart_data.h"
 
 namespace waylight {
 
