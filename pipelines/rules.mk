@@ -139,7 +139,7 @@ $(6:=.csv): %.csv: %.exr $(6:=.json) $(REFERENCE) $$(preprocess_$(4)) $(BIN)/ima
 	@rm -f $$@.tmp
 	$$(LAUNCH) $(BIN)/image-compare $$*.exr $(REFERENCE) --render-stats $$*.json \
 	  $$(preprocess_$(4):%=--preprocess-stats %) --label scene=$(NAME) --label method=$(1) \
-	  --label seed=$(2) --error-image $$*-error.png --csv $$@.tmp $(COMPARE_FLAGS)
+	  --error-image $$*-error.png --csv $$@.tmp $(COMPARE_FLAGS)
 	@mv $$@.tmp $$@
 endef
 render_rules_of = $(call render_rule,$(1),$(2),$(call mode_of,$(1)),$(call needs_of,$(1)),$(call \

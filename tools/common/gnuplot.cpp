@@ -60,11 +60,11 @@ std::string axis_commands(char axis, const Range& values, bool linear) {
 }
 
 std::string terminal(ChartFormat format) {
-  return format == ChartFormat::svg
-             ? "set terminal svg noenhanced size 900,600 dynamic font 'Helvetica,15' "
-               "background '#ffffff'\n"
-             : "set terminal pngcairo noenhanced size 1350,900 font 'Sans,16' "
-               "background '#ffffff'\n";
+  if (format == ChartFormat::png)
+    return "set terminal pngcairo noenhanced size 1350,900 font 'Sans,16' background '#ffffff'\n";
+  return fmt::format(
+      "set terminal svg noenhanced size {} dynamic font 'Helvetica,15' background '#ffffff'\n",
+      format == ChartFormat::svg ? "900,600" : "560,390");
 }
 
 std::string label_of(const std::string& column) {
@@ -78,7 +78,7 @@ std::string label_of(const std::string& column) {
   if (column == "contribution") return "share of the luminance";
   if (column == "sample_ms") return "time per sample of every pixel (ms)";
   if (column == "path_length") return "edges per path";
-  if (column == "memory_bytes") return "peak memory (bytes)";
+  if (column == "memory_bytes") return "peak memory";
   return column;
 }
 
@@ -137,7 +137,7 @@ std::string bar_commands(const std::vector<ChartLine>& lines) {
                          i, i, kColors[i % kColors.size()]);
     if (has_band(lines[i]))
       plots += fmt::format(
-          ", $line{} using ({}):2:3:4 with yerrorbars linecolor rgb '#202020' pointtype 0 notitle",
+          ", $line{} using ({}):2:3:4 with yerrorbars linecolor rgb '#202020' pointsize 0 notitle",
           i, i);
   }
   return fmt::format(
@@ -178,6 +178,7 @@ std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartL
       options.preprocess ? "preprocessing and render time (s)" : label_of(options.x);
   if (!options.bars) script += "set xlabel " + quoted(x_label) + "\n";
   script += "set ylabel " + quoted(label_of(options.y)) + "\n";
+  if (options.y == "memory_bytes") script += "set format y '%.0s %cB'\n";
   if (!options.title.empty()) script += "set title " + quoted(options.title) + "\n";
   script +=
       "set border 3 linecolor rgb '#404040'\nset tics nomirror out textcolor rgb '#202020'\n"

@@ -8,7 +8,7 @@
 
 namespace waylight {
 
-enum class ChartFormat { svg, png };
+enum class ChartFormat { svg, small_svg, png };  // small: several side by side
 
 // The commands that draw the lines into the file `output`. The same text for equal input.
 std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartLine>& lines,

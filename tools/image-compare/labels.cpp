@@ -40,6 +40,7 @@ void take_statistics(const std::string& path, ImageLabels& labels) {
   };
   take("scene", {"scene"});
   take("method", {"method", "mode"});
+  take("seed", {"seed"});
   take("seconds", {"render_seconds", "seconds"});
   take("preprocess_seconds", {"preprocess_seconds"});
   take("spp", {"spp", "mean_spp"});
