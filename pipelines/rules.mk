@@ -3,6 +3,8 @@
 #   make -f pipelines/gap-room.mk            everything: caches, images, figures, chart
 #   make -f pipelines/gap-room.mk cache      the caches only
 #   make -f pipelines/gap-room.mk passes-chart PASSES=4    error after each pass of training
+#   make -f pipelines/gap-room.mk report     the same as one page, with the images
+#   make -f pipelines/gap-room.mk charts     error over time and samples, and what a sample costs
 #   make -f pipelines/gap-room.mk clean
 #
 # Every stage keeps its options in a stamp, so changing one reruns only what depends on it. Outputs
@@ -59,9 +61,10 @@ REFERENCE ?= $(OUT)/reference.exr
 SCENE_INPUTS ?=
 QUIET ?=
 
-.PHONY: all cache images chart passes-chart reference clean FORCE
+.PHONY: all cache images chart charts report passes-chart reference clean FORCE
 all: chart
 chart: $(OUT)/$(NAME).svg
+report: $(OUT)/report.html
 passes-chart: $(OUT)/passes.svg
 reference: $(OUT)/reference.exr
 
@@ -88,6 +91,15 @@ $(OUT)/scene.brdf $(OUT)/brdf-fit.json &: $(SCENE) $(SCENE_INPUTS) $(OUT)/.optio
     $(BIN)/brdf-fit
 	$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $(SCENE_FLAGS) -o $(OUT)/scene.brdf --seed $(SEED) \
 	  --stats $(OUT)/brdf-fit.json $(BRDF_FIT_FLAGS) $(QUIET)
+
+# $(call measure,stem,method,preprocessing,flags): the figures of an image as the table $@.
+define measure
+@rm -f $@.tmp
+$(LAUNCH) $(BIN)/image-compare $(1).exr $(REFERENCE) --render-stats $(1).json \
+  $(3:%=--preprocess-stats %) --label scene=$(NAME) --label method=$(2) --csv $@.tmp $(4) \
+  $(COMPARE_FLAGS) $(QUIET)
+@mv $@.tmp $@
+endef
 
 include $(ROOT)/passes.mk
 
@@ -136,11 +148,7 @@ $(6:=.exr) $(6:=.json) &: $(SCENE) $(SCENE_INPUTS) $$(caches_$(4)) $(OUT)/.optio
 	  $(QUIET)
 
 $(6:=.csv): %.csv: %.exr $(6:=.json) $(REFERENCE) $$(preprocess_$(4)) $(BIN)/image-compare
-	@rm -f $$@.tmp
-	$$(LAUNCH) $(BIN)/image-compare $$*.exr $(REFERENCE) --render-stats $$*.json \
-	  $$(preprocess_$(4):%=--preprocess-stats %) --label scene=$(NAME) --label method=$(1) \
-	  --error-image $$*-error.png --csv $$@.tmp $(COMPARE_FLAGS)
-	@mv $$@.tmp $$@
+	$$(call measure,$$*,$(1),$$(preprocess_$(4)),--error-image $$*-error.png)
 endef
 render_rules_of = $(call render_rule,$(1),$(2),$(call mode_of,$(1)),$(call needs_of,$(1)),$(call \
   stem_of,$(1),$(2)),$(call images_of,$(1),$(2)))
@@ -156,6 +164,18 @@ $(OUT)/$(NAME).csv: $(figures) $(OUT)/.options/chart
 
 $(OUT)/$(NAME).svg: $(OUT)/$(NAME).csv $(BIN)/chart
 	$(LAUNCH) $(BIN)/chart $< -o $@ --title "$(NAME)" $(QUIET)
+
+chart_total := --preprocess
+chart_spp := --x spp
+chart_sample := --y sample_ms --bars
+chart_path := --y path_length --bars
+chart_memory := --y memory_bytes --bars
+charts: chart $(foreach c,total spp sample path memory,$(OUT)/$(NAME)-$(c).svg)
+$(OUT)/$(NAME)-%.svg: $(OUT)/$(NAME).csv $(BIN)/chart
+	$(LAUNCH) $(BIN)/chart $< -o $@ --title "$(NAME)" $(chart_$*) $(QUIET)
+
+$(OUT)/report.html: $(OUT)/$(NAME).csv $(BIN)/report
+	$(LAUNCH) $(BIN)/report $< -o $@ --title "$(NAME)" $(QUIET)
 
 $(OUT)/reference.exr: $(SCENE) $(SCENE_INPUTS) $(caches_$(REFERENCE_MODE)) \
     $(OUT)/.options/reference $(BIN)/render

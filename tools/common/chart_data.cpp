@@ -56,14 +56,26 @@ ChartPoint merge(const Row* first, const Row* last, bool linear_y) {
   return point;
 }
 
+// Points with labels are those of a choice: one for each label, in the order of the table.
+std::vector<ChartPoint> merge_labels(const std::vector<Row>& rows, bool linear_y) {
+  std::vector<std::vector<Row>> groups;
+  for (const Row& row : rows) {
+    const auto group = std::find_if(groups.begin(), groups.end(),
+                                    [&](const auto& g) { return g[0].label == row.label; });
+    group == groups.end() ? groups.push_back({row}) : group->push_back(row);
+  }
+  std::vector<ChartPoint> points;
+  for (const std::vector<Row>& group : groups)
+    points.push_back(merge(group.data(), group.data() + group.size(), linear_y));
+  return points;
+}
+
 std::vector<ChartPoint> merge_equal(std::vector<Row> rows, double tolerance, bool linear_y) {
   std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.x < b.x; });
   std::vector<ChartPoint> points;
   for (size_t begin = 0; begin < rows.size();) {
     size_t end = begin + 1;
-    while (end < rows.size() && rows[end].label == rows[begin].label &&
-           rows[end].x - rows[begin].x <= rows[begin].x * tolerance)
-      ++end;
+    while (end < rows.size() && rows[end].x - rows[begin].x <= rows[begin].x * tolerance) ++end;
     points.push_back(merge(&rows[begin], &rows[begin] + (end - begin), linear_y));
     begin = end;
   }
@@ -112,10 +124,12 @@ std::vector<ChartLine> chart_lines(const ChartOptions& options) {
     }
     groups[group].push_back(row);
   }
+  const double tolerance = options.x == "seconds" ? kEqualSeconds : 0;
+  const bool linear_y = options.is_linear('y');
   std::vector<ChartLine> lines;
   for (size_t i = 0; i < names.size(); ++i)
-    lines.push_back({names[i], merge_equal(groups[i], options.x == "seconds" ? kEqualSeconds : 0,
-                                           options.is_linear('y'))});
+    lines.push_back({names[i], options.labels.empty() ? merge_equal(groups[i], tolerance, linear_y)
+                                                      : merge_labels(groups[i], linear_y)});
   if (options.bars)
     for (ChartLine& line : lines) line.points = {line.points.back()};
   return lines;

@@ -39,13 +39,13 @@ struct ChartPoint {
 
 struct ChartLine {
   std::string name;                // of the method, and of the scene when there are several
-  std::vector<ChartPoint> points;  // x rises
+  std::vector<ChartPoint> points;  // x rises, but where they have labels
 };
 
 // Lines in the order in which they appear. Renders that are limited by time end a little late, so
-// seconds within 5 % of each other count as equal; other columns have to be equal. Throws Error
-// naming file and row for a column that is missing and for values that logarithmic axes cannot
-// show.
+// seconds within 5 % of each other count as equal; other columns have to be equal. Where points
+// have labels, rows with one label are a point. Throws Error naming file and row for a column that
+// is missing and for values that logarithmic axes cannot show.
 std::vector<ChartLine> chart_lines(const ChartOptions& options);
 
 }  // namespace waylight

@@ -74,6 +74,8 @@ std::string label_of(const std::string& column) {
   if (column == "relmse_trimmed") return "relMSE without the worst 0.1 % of the pixels";
   if (column == "mape") return "MAPE";
   if (column == "mse") return "MSE";
+  if (column == "fit_seconds") return "time of fitting (s)";
+  if (column == "held_out_error") return "error on samples not fitted to";
   if (column == "edges") return "path edges";
   if (column == "contribution") return "share of the luminance";
   if (column == "sample_ms") return "time per sample of every pixel (ms)";
@@ -137,7 +139,9 @@ std::string bar_commands(const std::vector<ChartLine>& lines) {
                          i, i, kColors[i % kColors.size()]);
     if (has_band(lines[i]))
       plots += fmt::format(
-          ", $line{} using ({}):2:3:4 with yerrorbars linecolor rgb '#202020' pointsize 0 notitle",
+          ", $line{} using ({}):3:(0):($4-$3) with vectors nohead linecolor rgb '#202020' "
+          "linewidth "
+          "1.5 notitle",
           i, i);
   }
   return fmt::format(
@@ -149,14 +153,16 @@ std::string bar_commands(const std::vector<ChartLine>& lines) {
 }  // namespace
 
 std::vector<double> logarithmic_ticks(double low, double high) {
-  const bool dense = std::log10(high / low) <= 2.5;
+  const double decades = std::log10(high / low);
+  const std::vector<double> digits = decades > 2.5   ? std::vector<double>{1}
+                                     : decades > 0.8 ? std::vector<double>{1, 2, 5}
+                                                     : std::vector<double>{1, 1.5, 2, 3, 4, 5, 7};
   std::vector<double> ticks;
   for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10, power) <= high;
        ++power)
-    for (int digit : {1, 2, 5}) {
-      const double tick = digit * std::pow(10, power);
-      if (tick >= low && tick <= high && (digit == 1 || dense)) ticks.push_back(tick);
-    }
+    for (double digit : digits)
+      if (const double tick = digit * std::pow(10, power); tick >= low && tick <= high)
+        ticks.push_back(tick);
   return ticks;
 }
 
@@ -183,7 +189,8 @@ std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartL
   script +=
       "set border 3 linecolor rgb '#404040'\nset tics nomirror out textcolor rgb '#202020'\n"
       "set grid linecolor rgb '#dcdcdc' linewidth 1 linetype 1\n"
-      "set key top right opaque samplen 2.5 spacing 1.3 width 1 noautotitle\n";
+      "set key samplen 2.5 spacing 1.3 width 1 noautotitle ";
+  script += format == ChartFormat::small_svg ? "below horizontal\n" : "top right opaque\n";
   if (options.bars) return script + bar_commands(lines);
   script += plot_command(lines, options.has_slope());
   if (!options.labels.empty()) script += label_plots(lines);

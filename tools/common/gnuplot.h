@@ -17,8 +17,8 @@ std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartL
 // Pipes the commands to gnuplot. Throws Error with the remedy when it is missing or fails.
 void run_gnuplot(const std::string& script);
 
-// Labelled positions on a logarithmic axis from low to high: 1, 2 and 5 of each decade when there
-// are at most two and a half, else powers of ten.
+// Labelled positions on a logarithmic axis from low to high: powers of ten, with 2 and 5 of each
+// decade where there are at most two and a half, and more in a part of one.
 std::vector<double> logarithmic_ticks(double low, double high);
 
 }  // namespace waylight

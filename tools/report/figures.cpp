@@ -21,8 +21,8 @@ std::string ratio_cell(const Reach& r) {
   return fmt::format(
       "<span class=cell style=\"background:rgba(var(--{}),{:.2f})\">{}{}&times; <small>{}&times;"
       "</small></span>",
-      r.total_ratio >= 1 ? "good" : "bad", strength, r.extrapolated ? "~" : "", text_of(r.ratio),
-      text_of(r.total_ratio));
+      r.total_ratio >= 1 ? "good" : "bad", strength, r.extrapolated ? "&asymp;" : "",
+      text_of(r.ratio), text_of(r.total_ratio));
 }
 
 std::vector<std::string> method_names(const SceneRuns& scene) {
@@ -89,7 +89,7 @@ std::string final_table(const SceneRuns& scene) {
   std::vector<std::vector<std::string>> rows;
   for (const Method& method : scene.methods)
     rows.push_back(final_row(method, scene.methods[0], spp));
-  return html_table({"method", "seeds", "seconds", "preprocessing s", "samples per pixel", "relMSE",
+  return html_table({"method", "seeds", "seconds", "preprocessing&nbsp;s", "samples per pixel", "relMSE",
                      "trimmed", "less error", "relMSE at " + text_of(spp) + " samples",
                      "ms per sample", "edges per path", "peak memory"},
                     rows);
@@ -99,12 +99,12 @@ std::string reach_table_html(const SceneRuns& scene) {
   std::vector<std::vector<std::string>> rows;
   for (const Reach& r : reach_table(scene))
     rows.push_back({escaped(r.method),
-                    (r.extrapolated ? "~" : "") +
+                    (r.extrapolated ? "&asymp;" : "") +
                         with_range({0, r.seconds, r.low, r.high, r.low < r.high ? 2 : 1, ""}),
                     text_of(r.ratio) + "&times;", text_of(r.preprocess_seconds),
                     text_of(r.seconds + r.preprocess_seconds), text_of(r.total_ratio) + "&times;"});
   return html_table(
-      {"method", "seconds", "sooner", "preprocessing s", "together s", "sooner with preprocessing"},
+      {"method", "seconds", "sooner", "preprocessing&nbsp;s", "together s", "sooner with preprocessing"},
       rows);
 }
 
