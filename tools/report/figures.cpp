@@ -89,8 +89,8 @@ std::string final_table(const SceneRuns& scene) {
   std::vector<std::vector<std::string>> rows;
   for (const Method& method : scene.methods)
     rows.push_back(final_row(method, scene.methods[0], spp));
-  return html_table({"method", "seeds", "seconds", "preprocessing&nbsp;s", "samples per pixel", "relMSE",
-                     "trimmed", "less error", "relMSE at " + text_of(spp) + " samples",
+  return html_table({"method", "seeds", "seconds", "preprocessing&nbsp;s", "samples per pixel",
+                     "relMSE", "trimmed", "less error", "relMSE at " + text_of(spp) + " samples",
                      "ms per sample", "edges per path", "peak memory"},
                     rows);
 }
@@ -103,9 +103,9 @@ std::string reach_table_html(const SceneRuns& scene) {
                         with_range({0, r.seconds, r.low, r.high, r.low < r.high ? 2 : 1, ""}),
                     text_of(r.ratio) + "&times;", text_of(r.preprocess_seconds),
                     text_of(r.seconds + r.preprocess_seconds), text_of(r.total_ratio) + "&times;"});
-  return html_table(
-      {"method", "seconds", "sooner", "preprocessing&nbsp;s", "together s", "sooner with preprocessing"},
-      rows);
+  return html_table({"method", "seconds", "sooner", "preprocessing&nbsp;s", "together s",
+                     "sooner with preprocessing"},
+                    rows);
 }
 
 }  // namespace waylight

@@ -27,7 +27,7 @@ class RowReader {
     Checkpoint c;
     c.scene = text(index, "scene");
     c.method = text(index, "method");
-    c.seed = text(index, "seed");
+    c.seed = optional_text(index, "seed");
     c.seconds = positive(index, "seconds");
     c.spp = positive(index, "spp");
     c.relmse = positive(index, "relmse");
@@ -38,7 +38,7 @@ class RowReader {
     c.memory_bytes = optional(index, "memory_bytes");
     c.image = picture(index, "image");
     c.reference = picture(index, "reference");
-    std::istringstream stats(text(index, "preprocess_stats"));
+    std::istringstream stats(optional_text(index, "preprocess_stats"));
     for (std::string file; std::getline(stats, file, ';');)
       if (fs::exists(find_beside(file, path_)))
         c.preprocess_stats.push_back(find_beside(file, path_));
@@ -52,8 +52,12 @@ class RowReader {
   std::string what(size_t index, const char* column) const {
     return fmt::format("\"{}\": record {}: {}", path_, index + 2, column);
   }
+  std::string optional_text(size_t index, const char* column) const {
+    const int found = table_.find(column);
+    return found < 0 ? "" : table_.rows[index][found];
+  }
   double optional(size_t index, const char* column) const {
-    const std::string cell = text(index, column);
+    const std::string cell = optional_text(index, column);
     return cell.empty() ? 0 : number_in(cell, what(index, column));
   }
   double positive(size_t index, const char* column) const {

@@ -63,7 +63,10 @@ std::string scene_charts(const SceneRuns& scene, const std::string& output) {
 std::string inline_svg(const std::string& svg) {
   const size_t begin = svg.find("<svg");
   if (begin == std::string::npos) return {};
-  return "<svg class=\"chart\"" + svg.substr(begin + 4);
+  std::string result = "<svg class=\"chart\"" + svg.substr(begin + 4);
+  for (size_t title; (title = result.find("<title>")) != std::string::npos;)  // tooltips
+    result.erase(title, result.find("</title>", title) + 8 - title);
+  return result;
 }
 
 }  // namespace waylight
