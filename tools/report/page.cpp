@@ -36,7 +36,7 @@ std::string facts(const Pictures& pictures) {
   const std::string own = pictures.reference_error
                               ? ", relMSE about " + text_of(*pictures.reference_error) +
                                     " as estimated from its own variance"
-                              : "";
+                              : " of unknown error";
   return fmt::format("<p class=facts>{} &times; {} pixels; reference{}.</p>\n", picture.width,
                      picture.height, own);
 }
