@@ -26,7 +26,7 @@ $(eval $(call stamp,trade-off-$(1),$(2)))
 $(OUT)/trade-off-$(1)/%/point.csv: $$(caches_$$(study_needs)) $$(preprocess_$$(study_needs)) \
     $(REFERENCE) FORCE
 	@mkdir -p $$(@D)
-	@cp -alfu $$(wildcard $(addprefix $(OUT)/,scene.* reduced.* pass-* *.json .options)) $$(@D)
+	@cp -alfu $$(sort $$(wildcard $(addprefix $(OUT)/,scene.* reduced.* pass-* *.json .options))) $$(@D)
 	+@$(MAKE) --no-print-directory -f $(firstword $(MAKEFILE_LIST)) OUT=$$(@D) $(study_scene) \
 	  $(subst %,$$*,$(3)) $$@
 

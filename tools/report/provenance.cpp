@@ -34,8 +34,8 @@ std::vector<std::string> stats_files(const SceneRuns& scene) {
 std::vector<std::string> stage_row(const std::string& file) {
   const auto stats = nlohmann::json::parse(read_whole_file(file), nullptr, false);
   if (!stats.is_object()) fail("\"{}\": is not a JSON object of statistics", file);
-  return {text_of(stats.value("seconds", 0.0)), escaped(stats.value("tool", "")),
-          escaped(stats.value("command", ""))};
+  return {text_of(stats.value("seconds", 0.0)), format_bytes(stats.value("peak_memory_bytes", 0.0)),
+          escaped(stats.value("tool", "")), escaped(stats.value("command", ""))};
 }
 
 }  // namespace
@@ -48,7 +48,8 @@ std::string provenance(const SceneRuns& scene, const Pictures& pictures) {
   for (const std::string& file : stats_files(scene)) stages.push_back(stage_row(file));
   std::string html = "<details><summary>Parameters and provenance</summary>\n";
   if (!stages.empty())
-    html += "<h3>Preprocessing</h3>\n" + html_table({"seconds", "tool", "command"}, stages, true);
+    html += "<h3>Preprocessing</h3>\n" +
+            html_table({"seconds", "peak memory", "tool", "command"}, stages, true);
   html += "<h3>Images</h3>\n" + html_table({"image", "what", "value"}, images, true);
   return html + "</details>\n";
 }

@@ -13,6 +13,7 @@ struct Reach {
   double preprocess_seconds = 0;  // in addition
   double ratio = 0;               // time of the first method over `seconds`
   double total_ratio = 0;         // the same with preprocessing on both sides
+  double trimmed_ratio = 0;       // as `ratio`, by errors without the worst 0.1 % of the pixels
   bool extrapolated = false;      // beyond the checkpoints, along slope -1
 };
 
