@@ -9,14 +9,17 @@
 # trade-off-NAME.csv and .svg. Included by studies.mk, which says STUDY_SPP.
 #
 # STUDY_METHOD     method of the renders                         the last of METHODS
+# NAME_TRIED       the values, by default as below
 # SEEDS            each value is rendered with all of them
 STUDY_METHOD ?= $(lastword $(METHODS))
 PHOTONS_TRIED ?= 62500 125000 250000 500000 1000000 2000000 4000000 8000000
 CELLS_TRIED ?= 75 150 300 600 1200 2400 4800
+MEDIUM_CELLS_TRIED ?= $(CELLS_TRIED)
 LOBES_TRIED ?= 1 2 4 8
 REDUCTIONS_TRIED ?= 0 1 5 10 20 50 90
 SPLITS_TRIED ?= 1 2 4 8 16
 FITS_TRIED ?= 1 2 4 8 16
+split_setting ?= RENDER_FLAGS='$(RENDER_FLAGS) --split %'
 
 # $(call trade_off,name,values,VARIABLE=value with %,axes of the chart)
 define trade_off
@@ -26,7 +29,8 @@ $(eval $(call stamp,trade-off-$(1),$(2)))
 $(OUT)/trade-off-$(1)/%/point.csv: $$(caches_$$(study_needs)) $$(preprocess_$$(study_needs)) \
     $(REFERENCE) FORCE
 	@mkdir -p $$(@D)
-	@cp -alfu $$(sort $$(wildcard $(addprefix $(OUT)/,scene.* reduced.* pass-* *.json .options))) $$(@D)
+	@find $(OUT) -maxdepth 1 -regex '.*/\(\(scene\|reduced\)\..*\|pass-.*\|.*\.json\|\.options\)' \
+	  -exec cp -alfu -t $$(@D) {} +
 	+@$(MAKE) --no-print-directory -f $(firstword $(MAKEFILE_LIST)) OUT=$$(@D) $(study_scene) \
 	  $(subst %,$$*,$(3)) $$@
 
@@ -44,11 +48,13 @@ study_scene = SCENE='$(SCENE)' SCENE_FLAGS='$(SCENE_FLAGS)' SCENE_INPUTS='$(SCEN
 $(eval $(call trade_off,photons,$(PHOTONS_TRIED),PHOTONS=%,--preprocess))
 $(eval $(call trade_off,cells,$(CELLS_TRIED),\
   CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --photons-per-cell %',--preprocess))
+$(eval $(call trade_off,medium-cells,$(MEDIUM_CELLS_TRIED),\
+  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --medium-photons-per-cell %',--preprocess))
 $(eval $(call trade_off,lobes,$(LOBES_TRIED),\
   CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --components %',--preprocess))
 $(eval $(call trade_off,reduction,$(REDUCTIONS_TRIED),\
   CACHE_REDUCE_FLAGS='$(CACHE_REDUCE_FLAGS) --max-cost %',--preprocess))
-$(eval $(call trade_off,split,$(SPLITS_TRIED),RENDER_FLAGS='$(RENDER_FLAGS) --split %',))
+$(eval $(call trade_off,split,$(SPLITS_TRIED),$(split_setting),))
 
 # One point: renders of equal samples.
 $(OUT)/point-%.exr $(OUT)/point-%.json &: $(caches_$(study_needs)) $(OUT)/.options/study \
@@ -56,8 +62,8 @@ $(OUT)/point-%.exr $(OUT)/point-%.json &: $(caches_$(study_needs)) $(OUT)/.optio
 	$(call study_render,$*) -o $(OUT)/point-$*.exr --stats $(OUT)/point-$*.json \
 	  --mode $(call mode_of,$(STUDY_METHOD)) $(call cache_flags,$(caches_$(study_needs))) \
 	  $(flags_$(STUDY_METHOD))
-$(OUT)/point-%.csv: $(OUT)/point-%.exr $(OUT)/point-%.json $(preprocess_$(study_needs)) \
-    $(BIN)/image-compare
+$(OUT)/point-%.csv: $(OUT)/point-%.exr $(OUT)/point-%.json $(REFERENCE) \
+    $(preprocess_$(study_needs)) $(BIN)/image-compare
 	$(call measure,$(OUT)/point-$*,$(STUDY_METHOD),$(preprocess_$(study_needs)))
 $(OUT)/point.csv: $(SEEDS:%=$(OUT)/point-%.csv)
 	@awk 'FNR > 1 || NR == 1' $^ > $@.tmp && mv $@.tmp $@

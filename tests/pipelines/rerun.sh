@@ -109,6 +109,10 @@ must_run trade-off-split 'SPLITS_TRIED=1 2' STUDY_SPP=2 'CACHE_REDUCE_FLAGS=--ma
 expect "a trade-off of splitting" "chart image-compare render"
 must_run trade-off-fit 'FITS_TRIED=1 2'
 expect "a trade-off of fits" "brdf-fit chart"
+must_run clean
+must_run trade-off-split 'SPLITS_TRIED=1 2' STUDY_SPP=2
+[[ $(grep -c '^ *bin/photon-trace' log) == 1 ]] ||
+  { echo "FAIL gap-room: a trade-off from a clean start trains more than once"; cat log; ((++failures)); }
 must_run
 
 # Stopped between the two outputs of a stage.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "formats/image_io.h"
 #include "libguide/image/compare.h"
 #include "tools/report/figures.h"

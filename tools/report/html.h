@@ -2,6 +2,7 @@
 // Pieces of HTML. All text that comes from files goes through escaped().
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace waylight {
