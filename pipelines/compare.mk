@@ -23,7 +23,7 @@ media_scenes := light-shafts haze lamp-behind backlit-wax smoky-room cloud \
 SCENES ?= gap-room jewelry $(foreach s,veach-ajar kitchenette living-room,$(call there,$(s),$(s))) \
   $(media_scenes)
 METHODS ?= bsdf illumination product auto
-MEDIA_METHODS ?= none distance direction both all
+MEDIA_METHODS ?= none distance direction both all auto
 TIMES ?= 1 2 5 10 20 50 100
 SEEDS ?= 1 2 3
 SIZE ?=

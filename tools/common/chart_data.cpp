@@ -124,7 +124,7 @@ std::vector<ChartLine> chart_lines(const ChartOptions& options) {
     }
     groups[group].push_back(row);
   }
-  const double tolerance = options.x == "seconds" ? kEqualSeconds : 0;
+  const double tolerance = options.x.ends_with("seconds") ? kEqualSeconds : 0;
   const bool linear_y = options.is_linear('y');
   std::vector<ChartLine> lines;
   for (size_t i = 0; i < names.size(); ++i)

@@ -23,7 +23,9 @@ struct ChartOptions {
     return (bars && axis == 'y') || linear.find(axis) != std::string::npos;
   }
   // Whether an unbiased method's error falls with slope -1 in this chart.
-  bool has_slope() const { return !bars && linear.empty() && (x == "seconds" || x == "spp"); }
+  bool has_slope() const {
+    return !bars && linear.empty() && (x == "seconds" || x == "cpu_seconds" || x == "spp");
+  }
 };
 
 // The options, with the columns `edges` and `contribution` on linear axes where the first table is

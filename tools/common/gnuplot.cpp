@@ -69,6 +69,7 @@ std::string terminal(ChartFormat format) {
 
 std::string label_of(const std::string& column) {
   if (column == "seconds") return "render time (s)";
+  if (column == "cpu_seconds") return "processor time of rendering (s)";
   if (column == "spp") return "samples per pixel";
   if (column == "relmse") return "relMSE";
   if (column == "relmse_trimmed") return "relMSE without the worst 0.1 % of the pixels";

@@ -28,7 +28,7 @@ struct ImageCompareOptions {
 
 // Columns of the table that describe the image; values come from statistics, then from labels.
 inline constexpr std::array kImageLabels{
-    "scene", "method",    "seed",        "seconds",     "preprocess_seconds",
+    "scene", "method",    "seed",        "seconds",     "cpu_seconds", "preprocess_seconds",
     "spp",   "sample_ms", "path_length", "memory_bytes"};
 using ImageLabels = std::map<std::string, std::string>;
 ImageLabels collect_labels(const ImageCompareOptions& options);

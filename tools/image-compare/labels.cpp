@@ -42,6 +42,7 @@ void take_statistics(const std::string& path, ImageLabels& labels) {
   take("method", {"method", "mode"});
   take("seed", {"seed"});
   take("seconds", {"render_seconds", "seconds"});
+  take("cpu_seconds", {"cpu_seconds"});
   take("preprocess_seconds", {"preprocess_seconds"});
   take("spp", {"spp", "mean_spp"});
   take("path_length", {"mean_path_length"});
