@@ -52,7 +52,7 @@ std::vector<std::string> final_row(const Method& method, const Method& base, dou
           text_of(cross(line_of(method, spp_of, relmse_of).points, spp)),
           mean([](const Checkpoint& c) { return c.sample_ms; }),
           mean([](const Checkpoint& c) { return c.path_length; }),
-          format_bytes(final_mean(method, [](const Checkpoint& c) { return c.memory_bytes; }).y)};
+          bytes_of(final_mean(method, [](const Checkpoint& c) { return c.memory_bytes; }).y)};
 }
 
 }  // namespace
@@ -61,6 +61,8 @@ std::string text_of(double value) {
   if (value == 0) return "&ndash;";
   return std::abs(value) >= 1000 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
+
+std::string bytes_of(double value) { return value > 0 ? format_bytes(value) : text_of(0); }
 
 std::string with_range(const ChartPoint& p) {
   const std::string mean = text_of(p.y);

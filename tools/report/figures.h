@@ -5,9 +5,11 @@
 
 namespace waylight {
 
-std::string text_of(double value);  // three digits
+// Three digits, or a dash for 0, which is not known.
+std::string text_of(double value);
+std::string bytes_of(double value);
 
-// "12.3 (11.9 to 12.8)", the range where there is one; "-" for 0, which is not known.
+// "12.3 (11.9 to 12.8)", the range where there is one.
 std::string with_range(const ChartPoint& point);
 
 // Times faster, each scene a row; scenes with other methods begin another table.

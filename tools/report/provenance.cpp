@@ -49,7 +49,7 @@ std::vector<std::string> stats_files(const SceneRuns& scene) {
 
 std::vector<std::string> stage_row(const std::string& file) {
   const nlohmann::json stats = read_stats(file);
-  return {text_of(stats.value("seconds", 0.0)), format_bytes(stats.value("peak_memory_bytes", 0.0)),
+  return {text_of(stats.value("seconds", 0.0)), bytes_of(stats.value("peak_memory_bytes", 0.0)),
           escaped(stats.value("tool", "")), escaped(stats.value("command", ""))};
 }
 
