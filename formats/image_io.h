@@ -28,4 +28,8 @@ void write_exr(const std::string& path, const Image& image,
 // 8-bit sRGB picture of the R, G, B channels, clamped, times 2^exposure.
 void write_png(const std::string& path, const Image& image, float exposure = 0);
 
+// The content of such a PNG, and of a JPEG, which takes a fraction of the space where there is noise.
+std::string png_bytes(const Bitmap& picture, float exposure = 0);
+std::string jpeg_bytes(const Bitmap& picture, float exposure, int quality);
+
 }  // namespace waylight

@@ -80,6 +80,15 @@ uint8_t quantise(float linear) {
   return static_cast<uint8_t>(linear_to_srgb(std::min(linear, 1.0f)) * 255 + 0.5f);
 }
 
+std::vector<uint8_t> quantise(const Bitmap& picture, float exposure) {
+  const float scale = std::exp2(exposure);
+  std::vector<uint8_t> bytes;
+  bytes.reserve(picture.pixels.size() * 3);
+  for (const Color& color : picture.pixels)
+    for (float value : color) bytes.push_back(quantise(value * scale));
+  return bytes;
+}
+
 void append_bytes(void* context, void* data, int size) {
   static_cast<std::string*>(context)->append(static_cast<const char*>(data), size);
 }
@@ -106,23 +115,34 @@ Image read_picture(const std::string& path, ColorSpace space) {
   return decode_integers<stbi_uc>(source, stbi_load_from_memory, integers_srgb);
 }
 
+std::string png_bytes(const Bitmap& picture, float exposure) {
+  const std::vector<uint8_t> bytes = quantise(picture, exposure);
+  std::string png;
+  if (!stbi_write_png_to_func(append_bytes, &png, picture.width, picture.height, 3, bytes.data(),
+                              picture.width * 3))
+    fail("a picture of {} x {} pixels cannot be encoded as PNG", picture.width, picture.height);
+  return png;
+}
+
+std::string jpeg_bytes(const Bitmap& picture, float exposure, int quality) {
+  const std::vector<uint8_t> bytes = quantise(picture, exposure);
+  std::string jpeg;
+  if (!stbi_write_jpg_to_func(append_bytes, &jpeg, picture.width, picture.height, 3, bytes.data(),
+                              quality))
+    fail("a picture of {} x {} pixels cannot be encoded as JPEG", picture.width, picture.height);
+  return jpeg;
+}
+
 void write_png(const std::string& path, const Image& image, float exposure) {
   std::array<int, 3> channels{image.find("R"), image.find("G"), image.find("B")};
   if (image.find("Y") >= 0 && channels[0] < 0) channels.fill(image.find("Y"));
   if (*std::min_element(channels.begin(), channels.end()) < 0)
     fail("\"{}\": the picture has no channels R, G, B to write", path);
-  const float scale = std::exp2(exposure);
-  std::vector<uint8_t> bytes;
-  bytes.reserve(static_cast<size_t>(image.width) * image.height * 3);
+  Bitmap picture{image.width, image.height, {}, {}};
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)
-      for (float value : display_color(image, channels, x, y))
-        bytes.push_back(quantise(value * scale));
-  std::string png;
-  if (!stbi_write_png_to_func(append_bytes, &png, image.width, image.height, 3, bytes.data(),
-                              image.width * 3))
-    fail("\"{}\": cannot be encoded as PNG", path);
-  write_whole_file(path, png);
+      picture.pixels.push_back(display_color(image, channels, x, y));
+  write_whole_file(path, png_bytes(picture, exposure));
 }
 
 }  // namespace waylight

@@ -19,6 +19,7 @@ METHODS ?= none distance direction both all
 REFERENCE_MODE ?= illumination
 REFERENCE_FLAGS ?= --distance guided --direction product
 
+split_setting := SPLIT=%
 guided_media := --distance guided --direction product
 flags_none := --distance standard --direction standard --rr throughput
 flags_distance := --distance guided --direction standard --rr throughput

@@ -66,10 +66,7 @@ $(OUT)/pass-$(1).exr $(OUT)/pass-$(1).json &: $(SCENE) $(SCENE_INPUTS) \
 
 $(OUT)/pass-$(1).csv: $(OUT)/pass-$(1).exr $(OUT)/pass-$(1).json $(REFERENCE) \
     $(BIN)/image-compare
-	@rm -f $$@.tmp
-	$$(LAUNCH) $(BIN)/image-compare $(OUT)/pass-$(1).exr $(REFERENCE) \
-	  --render-stats $(OUT)/pass-$(1).json --label scene=$(NAME) --label method=product \
-	  --csv $$@.tmp && mv $$@.tmp $$@
+	$$(call measure,$(OUT)/pass-$(1),product)
 endef
 $(foreach i,$(pass_numbers),$(eval $(call pass_rules,$(i))))
 
@@ -77,9 +74,8 @@ $(OUT)/scene.cache: $(OUT)/pass-$(PASSES).cache $(OUT)/.options/passes
 	cp $< $@.tmp && mv $@.tmp $@
 
 $(OUT)/passes.csv: $(pass_numbers:%=$(OUT)/pass-%.csv) $(OUT)/.options/passes
-	@for pass in $(pass_numbers); do awk -v pass=$$pass 'FNR > 1 { print pass "," $$0 } \
-	  FNR == 1 && pass == 1 { print "pass," $$0 }' $(OUT)/pass-$$pass.csv || exit 1; \
-	  done > $@.tmp && mv $@.tmp $@
+	@awk -f $(ROOT)/tables/labelled.awk column=pass \
+	  $(foreach i,$(pass_numbers),value=$(i) $(OUT)/pass-$(i).csv) > $@.tmp && mv $@.tmp $@
 
 $(OUT)/passes.svg: $(OUT)/passes.csv $(BIN)/chart
 	$(LAUNCH) $(BIN)/chart $< -o $@ --x pass --linear x \

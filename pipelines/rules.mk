@@ -3,6 +3,8 @@
 #   make -f pipelines/gap-room.mk            everything: caches, images, figures, chart
 #   make -f pipelines/gap-room.mk cache      the caches only
 #   make -f pipelines/gap-room.mk passes-chart PASSES=4    error after each pass of training
+#   make -f pipelines/gap-room.mk report     the same as one page, with the images
+#   make -f pipelines/gap-room.mk charts     error over time and samples, and what a sample costs
 #   make -f pipelines/gap-room.mk clean
 #
 # Every stage keeps its options in a stamp, so changing one reruns only what depends on it. Outputs
@@ -26,7 +28,8 @@
 #                  radiance cache, each going on from the pass before; 0: photons unguided, once
 # IMPORTONS        importons of one pass
 # PASSES_SPP       samples per pixel of the renders of passes-chart
-# TIMES            seconds of the renders in the chart
+# TIMES            seconds after which a render writes its image and figures; one render of the
+#                  longest serves them all
 # METHODS          what to compare: render modes, or names of your own with a mode and flags, as in
 #                  METHODS='product product-8' mode_product-8=product flags_product-8='--max-depth 8'
 #                  A method gets the caches of its mode, or of the one that needs_NAME says.
@@ -58,9 +61,10 @@ REFERENCE ?= $(OUT)/reference.exr
 SCENE_INPUTS ?=
 QUIET ?=
 
-.PHONY: all cache images chart passes-chart reference clean FORCE
+.PHONY: all cache images chart charts report passes-chart reference clean FORCE
 all: chart
 chart: $(OUT)/$(NAME).svg
+report: $(OUT)/report.html
 passes-chart: $(OUT)/passes.svg
 reference: $(OUT)/reference.exr
 
@@ -88,6 +92,15 @@ $(OUT)/scene.brdf $(OUT)/brdf-fit.json &: $(SCENE) $(SCENE_INPUTS) $(OUT)/.optio
 	$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $(SCENE_FLAGS) -o $(OUT)/scene.brdf --seed $(SEED) \
 	  --stats $(OUT)/brdf-fit.json $(BRDF_FIT_FLAGS) $(QUIET)
 
+# $(call measure,stem,method,preprocessing,flags): the figures of an image as the table $@.
+define measure
+@rm -f $@.tmp
+$(LAUNCH) $(BIN)/image-compare $(1).exr $(REFERENCE) --render-stats $(1).json \
+  $(3:%=--preprocess-stats %) --label scene=$(NAME) --label method=$(2) --csv $@.tmp $(4) \
+  $(COMPARE_FLAGS) $(QUIET)
+@mv $@.tmp $@
+endef
+
 include $(ROOT)/passes.mk
 
 $(OUT)/reduced.% $(OUT)/cache-reduce-%.json: $(OUT)/scene.% $(OUT)/.options/cache-reduce \
@@ -101,46 +114,48 @@ caches_illumination := $(OUT)/reduced.cache
 caches_ris := $(caches_illumination)
 caches_product := $(OUT)/reduced.cache $(OUT)/reduced.brdf
 caches_mixture := $(caches_product)
+caches_auto := $(caches_product)
 preprocess_bsdf :=
 preprocess_illumination := $(foreach s,$(training) cache-reduce-cache,$(OUT)/$(s).json)
 preprocess_product := $(preprocess_illumination) \
   $(foreach s,brdf-fit cache-reduce-brdf,$(OUT)/$(s).json)
 preprocess_ris := $(preprocess_illumination)
 preprocess_mixture := $(preprocess_product)
+preprocess_auto := $(preprocess_product)
 cache_flags = $(patsubst %.brdf,--brdf %.brdf,$(patsubst %.cache,--cache %.cache,$(1)))
 mode_of = $(or $(mode_$(1)),$(1))
 needs_of = $(or $(needs_$(1)),$(call mode_of,$(1)))
 needs := $(sort $(foreach m,$(METHODS),$(call needs_of,$(m))))
 cache: $(foreach m,$(needs),$(caches_$(m)) $(preprocess_$(m)))
 
-# Name of an image: METHOD-SECONDSs, and its seed where that is not SEED.
+# Stem of a render: METHOD, and its seed where that is not SEED; its images are STEM-SECONDSs.
 seed_suffix = $(if $(filter-out $(SEED),$(1)),-seed$(1))
+stem_of = $(OUT)/$(1)$(call seed_suffix,$(2))
+times := $(shell printf '%g\n' $(TIMES) | sort -gu)
+images_of = $(foreach t,$(times),$(call stem_of,$(1),$(2))-$(t)s)
+empty :=
+comma := ,
+checkpoints := $(subst $(empty) $(empty),$(comma),$(strip $(times)))
 
-# $(call render_rule,method,mode,seed,needs): images of any time and their figures.
+# $(call render_rule,method,seed,mode,needs,stem,images): one render with an image at each time, and
+# the figures of these.
 define render_rule
-$(OUT)/$(1)-%s$(call seed_suffix,$(3)).exr $(OUT)/$(1)-%s$(call seed_suffix,$(3)).json: \
-    $(SCENE) $(SCENE_INPUTS) $$(caches_$(4)) $(OUT)/.options/render $(OUT)/.options/render-$(1) \
-    $(BIN)/render
-	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $$(basename $$@).exr --mode $(2) \
-	  $$(call cache_flags,$$(caches_$(4))) --time $$* --size $(SIZE) --seed $(3) --aov variance \
-	  --png $$(basename $$@).png --stats $$(basename $$@).json $(flags_$(1)) $(RENDER_FLAGS) \
+$(6:=.exr) $(6:=.json) &: $(SCENE) $(SCENE_INPUTS) $$(caches_$(4)) $(OUT)/.options/render \
+    $(OUT)/.options/render-$(1) $(BIN)/render
+	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $(5).exr --mode $(3) \
+	  $$(call cache_flags,$$(caches_$(4))) --checkpoints $(checkpoints) --size $(SIZE) \
+	  --seed $(2) --aov variance --png $(5).png --stats $(5).json $(flags_$(1)) $(RENDER_FLAGS) \
 	  $(QUIET)
 
-$(OUT)/$(1)-%s$(call seed_suffix,$(3)).csv: $(OUT)/$(1)-%s$(call seed_suffix,$(3)).exr \
-    $(OUT)/$(1)-%s$(call seed_suffix,$(3)).json $(REFERENCE) $$(preprocess_$(4)) \
-    $(BIN)/image-compare
-	@rm -f $$@.tmp
-	$$(LAUNCH) $(BIN)/image-compare $$(basename $$@).exr $(REFERENCE) \
-	  --render-stats $$(basename $$@).json $$(preprocess_$(4):%=--preprocess-stats %) \
-	  --label scene=$(NAME) --label method=$(1) --error-image $$(basename $$@)-error.png \
-	  --csv $$@.tmp $(COMPARE_FLAGS) && mv $$@.tmp $$@
+$(6:=.csv): %.csv: %.exr $(6:=.json) $(REFERENCE) $$(preprocess_$(4)) $(BIN)/image-compare
+	$$(call measure,$$*,$(1),$$(preprocess_$(4)),--error-image $$*-error.png)
 endef
+render_rules_of = $(call render_rule,$(1),$(2),$(call mode_of,$(1)),$(call needs_of,$(1)),$(call \
+  stem_of,$(1),$(2)),$(call images_of,$(1),$(2)))
 $(foreach m,$(METHODS),$(eval $(call stamp,render-$(m),$(call mode_of,$(m)) $(flags_$(m)))) \
-  $(foreach s,$(SEEDS),$(eval \
-    $(call render_rule,$(m),$(call mode_of,$(m)),$(s),$(call needs_of,$(m))))))
+  $(foreach s,$(SEEDS),$(eval $(call render_rules_of,$(m),$(s)))))
 
-renders := $(foreach m,$(METHODS),$(foreach t,$(TIMES),$(foreach s,$(SEEDS),\
-  $(OUT)/$(m)-$(t)s$(call seed_suffix,$(s)))))
+renders := $(foreach m,$(METHODS),$(foreach s,$(SEEDS),$(call images_of,$(m),$(s))))
 figures := $(renders:=.csv)
 images: $(renders:=.exr) $(renders:=.json)
 
@@ -149,6 +164,18 @@ $(OUT)/$(NAME).csv: $(figures) $(OUT)/.options/chart
 
 $(OUT)/$(NAME).svg: $(OUT)/$(NAME).csv $(BIN)/chart
 	$(LAUNCH) $(BIN)/chart $< -o $@ --title "$(NAME)" $(QUIET)
+
+chart_total := --preprocess
+chart_spp := --x spp
+chart_sample := --y sample_ms --bars
+chart_path := --y path_length --bars
+chart_memory := --y memory_bytes --bars
+charts: chart $(foreach c,total spp sample path memory,$(OUT)/$(NAME)-$(c).svg)
+$(OUT)/$(NAME)-%.svg: $(OUT)/$(NAME).csv $(BIN)/chart
+	$(LAUNCH) $(BIN)/chart $< -o $@ --title "$(NAME)" $(chart_$*) $(QUIET)
+
+$(OUT)/report.html: $(OUT)/$(NAME).csv $(BIN)/report
+	$(LAUNCH) $(BIN)/report $< -o $@ --title "$(NAME)" $(QUIET)
 
 $(OUT)/reference.exr: $(SCENE) $(SCENE_INPUTS) $(caches_$(REFERENCE_MODE)) \
     $(OUT)/.options/reference $(BIN)/render

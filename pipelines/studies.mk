@@ -2,6 +2,8 @@
 #
 #   make -f pipelines/gap-room.mk reduction    error and time per path edge over the threshold of
 #                                              cache-reduce: reduction.csv, reduction.svg
+#   make -f pipelines/gap-room.mk trade-offs   error over time of what each stage leaves to choose;
+#                                              trade-off-photons and so on one by one
 #   make -f pipelines/gap-room.mk overhead     time per path edge of product over illumination
 #                                              guiding, before and after reduction: overhead.md
 #   make -f pipelines/gap-room.mk unbiased     z-scores of every method against the first one, or
@@ -21,12 +23,15 @@ reduction: $(OUT)/reduction.svg
 overhead: $(OUT)/overhead.md
 unbiased: $(OUT)/unbiased.md
 
+
+include $(ROOT)/trade-offs.mk
+
 $(eval $(call stamp,study,$(SCENE_FLAGS) $(SEED) $(SIZE) $(RENDER_FLAGS) $(STUDY_SPP)))
 $(eval $(call stamp,reduction,$(THRESHOLDS)))
 $(eval $(call stamp,unbiased,$(SCENE_FLAGS) $(SIZE) $(RENDER_FLAGS) $(UNBIASED_SPP) \
   $(UNBIASED_AGAINST) $(METHODS)))
 study_render = $(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) --spp $(STUDY_SPP) --size $(SIZE) \
-  --seed $(SEED) $(RENDER_FLAGS) $(QUIET)
+  --seed $(or $(1),$(SEED)) $(RENDER_FLAGS) $(QUIET)
 $(OUT)/reduction/%.brdf $(OUT)/reduction/%.brdf.json: $(OUT)/scene.brdf $(BIN)/cache-reduce
 	@mkdir -p $(@D)
 	$(LAUNCH) $(BIN)/cache-reduce $< -o $(OUT)/reduction/$*.brdf --max-cost $* \

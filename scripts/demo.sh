@@ -3,10 +3,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install.sh -DWAYLIGHT_TESTS=OFF -DWAYLIGHT_BENCH=OFF
-make -f pipelines/gap-room.mk
+make -f pipelines/gap-room.mk all report
 
 out=out/gap-room
 last=$(ls -t "$out"/product-*s.exr | head -n 1)
-printf '\nimage     %s  %s\ncaches    %s  %s\nfigures   %s\nchart     %s\n' \
+printf '\nimage     %s  %s\ncaches    %s  %s\nfigures   %s\nchart     %s\npage      %s\n' \
   "$last" "${last%.exr}.png" "$out/reduced.brdf" "$out/reduced.cache" \
-  "$out/gap-room.csv" "$out/gap-room.svg"
+  "$out/gap-room.csv" "$out/gap-room.svg" "$out/report.html"

@@ -41,3 +41,14 @@ printf '<scene version="3.0.0"/>\n' > bare.xml
 # Triangles of which one has no area.
 printf 'v %s\n' '-1 -1 0' '1 -1 0' '1 1 0' '2 2 0' > screen.obj
 printf 'f %s\n' '1 2 3' '1 3 4' >> screen.obj
+
+# A table as image-compare writes it: two methods, one of them with two seeds.
+{
+  echo scene,method,seed,seconds,preprocess_seconds,spp,sample_ms,path_length,memory_bytes,relmse,relmse_trimmed,image,reference,preprocess_stats
+  echo box,bsdf,1,1,,16,62.5,3.5,40000000,0.8,0.7,plain.exr,guided.exr,
+  echo box,bsdf,1,2,,32,62.5,3.5,40000000,0.4,0.3,plain.exr,guided.exr,
+  echo box,product,1,1,0.5,8,125,3,50000000,0.6,0.5,guided.exr,guided.exr,guided.json
+  echo box,product,1,2,0.5,16,125,3,50000000,0.3,0.2,guided.exr,guided.exr,guided.json
+  echo box,product,2,1,0.5,8,125,3,50000000,0.6,0.5,guided.exr,guided.exr,guided.json
+  echo box,product,2,2,0.5,16,125,3,50000000,0.15,0.1,guided.exr,guided.exr,guided.json
+} > report.csv

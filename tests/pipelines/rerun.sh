@@ -15,7 +15,8 @@ cd "$work" || exit 1
 # The tools are links with a fixed old date, so that a build that goes on at the same time does not
 # look like a change.
 mkdir bin
-for tool in brdf-fit photon-trace cache-train cache-reduce render image-compare chart make-cloud; do
+for tool in brdf-fit photon-trace cache-train cache-reduce render image-compare chart report \
+    make-cloud; do
   printf '#!/bin/sh\nexec "%s/%s" "$@"\n' "$bin" "$tool" > "bin/$tool"
   chmod +x "bin/$tool"
   touch -d 2001-01-01 "bin/$tool"
@@ -66,6 +67,16 @@ must_run PHOTONS=30000
 expect "other PHOTONS" "cache-reduce cache-train chart image-compare photon-trace render"
 must_run PHOTONS=30000 TIMES=0.05
 expect "fewer TIMES" "chart"
+must_run PHOTONS=30000 'TIMES=0.05 0.1 0.2'
+expect "one more time" "chart image-compare render"
+renders() {
+  [[ $(grep -c '^ *bin/render' log) == "$2" ]] && return
+  echo "FAIL gap-room: $1 is not $2 renders"; cat log; ((++failures))
+}
+renders "a time more" 2
+if [[ out/gap-room/bsdf-0.05s.csv -ot out/gap-room/bsdf-0.05s.exr ]]; then
+  echo "FAIL gap-room: figures are older than their image"; ((++failures))
+fi
 must_run PHOTONS=30000 METHODS=product
 expect "fewer METHODS" "chart"
 variant=(PHOTONS=30000 METHODS='product product-short' mode_product-short=product
@@ -74,14 +85,35 @@ must_run "${variant[@]}"
 expect "a method with flags of its own" "chart image-compare render"
 must_run "${variant[@]}" SEEDS='1 2'
 expect "one more seed" "chart image-compare render"
-if [[ $(grep -c '^ *bin/render' log) != 4 || ! -s out/gap-room/product-short-0.1s-seed2.exr ]]; then
-  echo "FAIL gap-room: a seed more is one render for each method and time"; cat log; ((++failures))
-fi
+renders "a seed more" 2
+[[ -s out/gap-room/product-short-seed2-0.1s.exr ]] ||
+  { echo "FAIL gap-room: no image of the second seed"; ((++failures)); }
 must_run "${variant[@]}" SEEDS='1 2'
 expect "the seeds again" ""
 touch pipelines/scenes/gap-room.xml
 must_run
 expect "a touched scene" "$everything"
+must_run report charts
+expect "more charts and a report" "chart report"
+must_run report charts
+expect "the same again" ""
+
+# Trade-offs run only the stage that has the option, and what follows it.
+must_run trade-off-photons 'PHOTONS_TRIED=10000 20000' STUDY_SPP=2
+expect "a trade-off of photons" "cache-reduce cache-train chart image-compare photon-trace render"
+must_run trade-off-photons 'PHOTONS_TRIED=10000 20000' STUDY_SPP=2
+expect "the trade-off again" ""
+must_run trade-off-photons 'PHOTONS_TRIED=10000 20000' STUDY_SPP=2 'CACHE_REDUCE_FLAGS=--max-cost 5'
+expect "the trade-off with other CACHE_REDUCE_FLAGS" "cache-reduce chart image-compare render"
+must_run trade-off-split 'SPLITS_TRIED=1 2' STUDY_SPP=2 'CACHE_REDUCE_FLAGS=--max-cost 5'
+expect "a trade-off of splitting" "chart image-compare render"
+must_run trade-off-fit 'FITS_TRIED=1 2'
+expect "a trade-off of fits" "brdf-fit chart"
+must_run clean
+must_run trade-off-split 'SPLITS_TRIED=1 2' STUDY_SPP=2
+[[ $(grep -c '^ *bin/photon-trace' log) == 1 ]] ||
+  { echo "FAIL gap-room: a trade-off from a clean start trains more than once"; cat log; ((++failures)); }
+must_run
 
 # Stopped between the two outputs of a stage.
 rm out/gap-room/product-0.1s.{json,csv}
@@ -93,6 +125,7 @@ expect "a render without statistics" "chart image-compare render"
 stopped() {
   local signal=$1 text=$2
   shift 2
+  : > log  # else it may still be that of the run before
   setsid make --no-print-directory -f pipelines/gap-room.mk "${tiny[@]}" "$@" > log 2>&1 &
   for ((i = 0; i < 200; ++i)); do
     grep -q -- "$text" log && break
@@ -111,12 +144,10 @@ fi
 stopped KILL bin/photon-trace cache PHOTONS=4000000000
 must_run
 expect "after a killed trace" "$everything"
-stopped KILL bsdf-100s.exr RENDER_FLAGS='--max-depth 4' TIMES='0.05 100'
+stopped KILL 'mode product' RENDER_FLAGS='--max-depth 4' flags_product='--time 100'
 must_run RENDER_FLAGS='--max-depth 4'
 expect "after a killed render" "chart image-compare render"
-if [[ $(grep -c '^ *bin/render' log) != 3 ]]; then
-  echo "FAIL gap-room: three of four renders were left to do"; cat log; ((++failures))
-fi
+renders "what a killed render left" 1
 
 # Studies and tables.
 small=(SCENES=gap-room SECONDS=0.05 SEEDS=1 BIN=bin OUT=out/paper
@@ -151,6 +182,17 @@ for image in none-2 distance-2; do
   [[ -s out/volume/shafts/$image.png ]] ||
     { echo "FAIL volume-paper: no light shafts $image"; ((++failures)); }
 done
+
+small=("${tiny[@]}" SEEDS='1 2' OUT=out/compare 'SCENES=gap-room smoky-room'
+       'MEDIA_METHODS=none both' 'options_smoky-room=PHOTONS=2000')
+pipeline=compare
+run_compare() { make --no-print-directory -f pipelines/compare.mk "${small[@]}" > log 2>&1; }
+run_compare || { echo "FAIL compare: make failed"; cat log; ((++failures)); }
+[[ $(wc -l < out/compare/compare.csv) == 17 && $(wc -l < out/compare/reach.csv) == 5 &&
+   -s out/compare/report.html && -s out/compare/smoky-room/smoky-room-spp.svg ]] ||
+  { echo "FAIL compare: not all figures, charts and the report"; ((++failures)); }
+run_compare
+expect "a second run" ""
 
 # The other pipelines, once and not again.
 others=(jewelry)

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "formats/atomic_file.h"
-#include "tools/chart/gnuplot.h"
+#include "tools/common/gnuplot.h"
 
 namespace waylight {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tools/chart/chart_data.h"
+#include "tools/common/chart_data.h"
 
 namespace waylight {
 

@@ -19,6 +19,7 @@ Tables of `render --segments` become the share of the luminance over the number 
 
 Examples:
   chart room.csv -o room.svg --title "Room" --preprocess
+  chart room.csv -o memory.svg --y memory_bytes --bars
   chart bsdf.csv product.csv -o segments.svg
   chart reduction.csv -o reduction.svg --x components --y relmse --linear x)"};
 
@@ -32,6 +33,9 @@ void declare(CLI::App& app, ChartOptions& options) {
   app.add_option("--lines", options.lines, "Column that tells the lines apart")
       ->type_name("COLUMN");
   app.add_option("--linear", options.linear, "Axes that are not logarithmic")->type_name("x|y|xy");
+  app.add_option("--labels", options.labels, "Column of words to write beside the points")
+      ->type_name("COLUMN");
+  app.add_flag("--bars", options.bars, "One bar per line: the vertical axis at its largest x");
   app.add_flag("--preprocess", options.preprocess, "Add preprocess_seconds to the seconds");
   app.add_flag("--png", options.png, "Write a PNG of the same name too");
 }

@@ -1,11 +1,14 @@
 #include "tools/common/csv.h"
 
 #include <fcntl.h>
+#include <fmt/ranges.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <cmath>
 #include <cstring>
 
 #include "formats/file_bytes.h"
@@ -101,6 +104,21 @@ class LockedFile {
 int CsvTable::find(const std::string& column) const {
   const auto found = std::find(columns.begin(), columns.end(), column);
   return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
+}
+
+int column_of(const CsvTable& table, const std::string& column, const std::string& path) {
+  const int index = table.find(column);
+  if (index < 0)
+    fail("\"{}\": has no column \"{}\" among {}", path, column, fmt::join(table.columns, ", "));
+  return index;
+}
+
+double number_in(const std::string& cell, const std::string& what) {
+  double value = 0;
+  const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || stop != cell.data() + cell.size() || !std::isfinite(value))
+    fail("{} is \"{}\", not a number", what, cell);
+  return value;
 }
 
 std::string csv_line(const std::vector<std::string>& cells) {

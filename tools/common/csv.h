@@ -17,6 +17,12 @@ struct CsvTable {
 // Throws Error naming path and line of the defect.
 CsvTable read_csv(const std::string& path);
 
+// The index of a column that has to be there; throws Error naming path and columns.
+int column_of(const CsvTable& table, const std::string& column, const std::string& path);
+
+// The cell as a finite number; throws Error that begins with `what`.
+double number_in(const std::string& cell, const std::string& what);
+
 // The cells as one line of a table, its newline included.
 std::string csv_line(const std::vector<std::string>& cells);
 

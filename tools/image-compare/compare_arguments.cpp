@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 
 #include "tools/image-compare/compare_tool.h"
@@ -7,7 +9,7 @@ namespace {
 
 void declare_labels(CLI::App& app, ImageCompareOptions& options) {
   app.add_option("--label", options.labels,
-                 "scene=, method=, seconds=, preprocess_seconds= or spp= for the table")
+                 fmt::format("{}= for the table", fmt::join(kImageLabels, "=, ")))
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   as_input(app.add_option("--render-stats", options.stats, "Labels from `render --stats`"));

@@ -1,5 +1,7 @@
 #include "tools/image-compare/compare_tool.h"
 
+#include <fmt/ranges.h>
+
 #include <nlohmann/json.hpp>
 
 #include "formats/image_io.h"
@@ -90,10 +92,10 @@ void write_error_image(const std::string& path, const Bitmap& image, const Bitma
   path.ends_with(".exr") ? write_exr(path, picture) : write_png(path, picture);
 }
 
-CsvRow csv_row(const ImageLabels& labels, const CompareFigures& figures) {
+CsvRow csv_row(const ImageLabels& labels, const CompareFigures& figures,
+               const ImageCompareOptions& options) {
   CsvRow row;
-  for (const char* name : {"scene", "method", "seconds", "preprocess_seconds", "spp"})
-    row.emplace_back(name, labels.at(name));
+  for (const char* name : kImageLabels) row.emplace_back(name, labels.at(name));
   const auto number = [&](const char* name, double value) {
     row.emplace_back(name, fmt::format("{:.8g}", value));
   };
@@ -103,6 +105,9 @@ CsvRow csv_row(const ImageLabels& labels, const CompareFigures& figures) {
   number("mape", figures.mape);
   number("mean", figures.mean);
   number("ref_mean", figures.ref_mean);
+  row.emplace_back("image", options.image);
+  row.emplace_back("reference", options.reference);
+  row.emplace_back("preprocess_stats", fmt::format("{}", fmt::join(options.preprocess_stats, ";")));
   return row;
 }
 
@@ -130,7 +135,7 @@ void image_compare(const ToolRun& run, const ImageCompareOptions& options) {
     run.control.warn(
         fmt::format("{} pixels are not finite and left out", report.figures.non_finite));
   if (!options.error_image.empty()) write_error_image(options.error_image, x, ref);
-  if (!options.csv.empty()) append_csv(options.csv, csv_row(labels, report.figures));
+  if (!options.csv.empty()) append_csv(options.csv, csv_row(labels, report.figures, options));
   const nlohmann::ordered_json json = to_json(labels, report);
   options.json ? run.print(json.dump(2)) : print_table(run, report);
   run.write_stats(json);

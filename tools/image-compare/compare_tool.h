@@ -1,6 +1,7 @@
 #pragma once
 // What the tool image-compare does, apart from its command line.
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct ImageCompareOptions {
 };
 
 // Columns of the table that describe the image; values come from statistics, then from labels.
+inline constexpr std::array kImageLabels{
+    "scene", "method",    "seed",        "seconds",     "cpu_seconds", "preprocess_seconds",
+    "spp",   "sample_ms", "path_length", "memory_bytes"};
 using ImageLabels = std::map<std::string, std::string>;
 ImageLabels collect_labels(const ImageCompareOptions& options);
 

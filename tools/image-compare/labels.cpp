@@ -1,8 +1,11 @@
 // Labels of an image: from the statistics that stages write, and from the command line.
 
+#include <fmt/ranges.h>
+
 #include <nlohmann/json.hpp>
 
 #include "formats/file_bytes.h"
+#include "tools/common/csv.h"
 #include "tools/image-compare/compare_tool.h"
 
 namespace waylight {
@@ -37,9 +40,13 @@ void take_statistics(const std::string& path, ImageLabels& labels) {
   };
   take("scene", {"scene"});
   take("method", {"method", "mode"});
+  take("seed", {"seed"});
   take("seconds", {"render_seconds", "seconds"});
+  take("cpu_seconds", {"cpu_seconds"});
   take("preprocess_seconds", {"preprocess_seconds"});
   take("spp", {"spp", "mean_spp"});
+  take("path_length", {"mean_path_length"});
+  take("memory_bytes", {"peak_memory_bytes"});
 }
 
 double preprocess_seconds(const std::vector<std::string>& paths) {
@@ -56,8 +63,7 @@ double preprocess_seconds(const std::vector<std::string>& paths) {
 
 ImageLabels collect_labels(const ImageCompareOptions& options) {
   ImageLabels labels;
-  for (const char* name : {"scene", "method", "seconds", "preprocess_seconds", "spp"})
-    labels[name] = "";
+  for (const char* name : kImageLabels) labels[name] = "";
   if (!options.stats.empty()) take_statistics(options.stats, labels);
   if (!options.preprocess_stats.empty())
     labels["preprocess_seconds"] =
@@ -65,11 +71,13 @@ ImageLabels collect_labels(const ImageCompareOptions& options) {
   for (const std::string& label : options.labels) {
     const size_t equals = label.find('=');
     const std::string name = label.substr(0, equals);
-    require(
-        equals != std::string::npos && labels.count(name),
-        "--label \"{}\" is not one of scene=, method=, seconds=, preprocess_seconds=, spp=", label);
+    require(equals != std::string::npos && labels.count(name),
+            "--label \"{}\" is not one of {}=", label, fmt::join(kImageLabels, "=, "));
     labels[name] = label.substr(equals + 1);
   }
+  if (!labels["seconds"].empty() && !labels["spp"].empty())
+    labels["sample_ms"] = fmt::format(
+        "{:.6g}", 1000 * number_in(labels["seconds"], "seconds") / number_in(labels["spp"], "spp"));
   return labels;
 }
 

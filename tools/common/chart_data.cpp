@@ -1,9 +1,6 @@
-#include "tools/chart/chart_data.h"
-
-#include <fmt/ranges.h>
+#include "tools/common/chart_data.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -16,24 +13,9 @@ namespace {
 constexpr double kEqualSeconds = 0.05;  // relative
 
 struct Row {
-  std::string scene, method;
+  std::string scene, method, label;
   double x, y;
 };
-
-int column_of(const CsvTable& table, const std::string& name, const std::string& path) {
-  const int column = table.find(name);
-  if (column < 0)
-    fail("\"{}\": has no column \"{}\" among {}", path, name, fmt::join(table.columns, ", "));
-  return column;
-}
-
-double number_in(const std::string& cell, const std::string& what) {
-  double value = 0;
-  const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || stop != cell.data() + cell.size() || !std::isfinite(value))
-    fail("{} is \"{}\", not a number", what, cell);
-  return value;
-}
 
 double coordinate_in(const std::string& cell, bool linear, const std::string& what) {
   const double value = number_in(cell, what);
@@ -46,12 +28,13 @@ void read_rows(const std::string& path, const ChartOptions& options, std::vector
   const int x = column_of(table, options.x, path), y = column_of(table, options.y, path);
   const int method = column_of(table, options.lines, path), scene = table.find("scene");
   const int preprocess = options.preprocess ? column_of(table, "preprocess_seconds", path) : -1;
+  const int label = options.labels.empty() ? -1 : column_of(table, options.labels, path);
   for (size_t i = 0; i < table.rows.size(); ++i) {
     const std::vector<std::string>& cells = table.rows[i];
     const auto what = [&](const std::string& column) {
       return fmt::format("\"{}\": record {}: {}", path, i + 2, column);
     };
-    Row row{scene < 0 ? "" : cells[scene], cells[method],
+    Row row{scene < 0 ? "" : cells[scene], cells[method], label < 0 ? "" : cells[label],
             coordinate_in(cells[x], options.is_linear('x'), what(options.x)),
             coordinate_in(cells[y], options.is_linear('y'), what(options.y))};
     if (preprocess >= 0 && !cells[preprocess].empty())
@@ -62,7 +45,7 @@ void read_rows(const std::string& path, const ChartOptions& options, std::vector
 
 // The geometric mean of y, or on a linear axis the arithmetic one.
 ChartPoint merge(const Row* first, const Row* last, bool linear_y) {
-  ChartPoint point{first->x, 0, first->y, first->y, static_cast<int>(last - first)};
+  ChartPoint point{first->x, 0, first->y, first->y, static_cast<int>(last - first), first->label};
   for (const Row* row = first; row != last; ++row) {
     point.y += (linear_y ? row->y : std::log(row->y)) / point.rows;
     point.low = std::min(point.low, row->y);
@@ -71,6 +54,20 @@ ChartPoint merge(const Row* first, const Row* last, bool linear_y) {
   if (!linear_y) point.y = std::exp(point.y);
   for (const Row* row = first + 1; row != last; ++row) point.x += (row->x - first->x) / point.rows;
   return point;
+}
+
+// Points with labels are those of a choice: one for each label, in the order of the table.
+std::vector<ChartPoint> merge_labels(const std::vector<Row>& rows, bool linear_y) {
+  std::vector<std::vector<Row>> groups;
+  for (const Row& row : rows) {
+    const auto group = std::find_if(groups.begin(), groups.end(),
+                                    [&](const auto& g) { return g[0].label == row.label; });
+    group == groups.end() ? groups.push_back({row}) : group->push_back(row);
+  }
+  std::vector<ChartPoint> points;
+  for (const std::vector<Row>& group : groups)
+    points.push_back(merge(group.data(), group.data() + group.size(), linear_y));
+  return points;
 }
 
 std::vector<ChartPoint> merge_equal(std::vector<Row> rows, double tolerance, bool linear_y) {
@@ -92,6 +89,7 @@ void ChartOptions::validate() const {
   for (char axis : linear)
     require(axis == 'x' || axis == 'y', "--linear {} is not x, y or xy", linear);
   require(!preprocess || x == "seconds", "--preprocess needs --x seconds");
+  require(!bars || !preprocess, "--bars has no time to add --preprocess to");
   require(output.ends_with(".svg"), "-o \"{}\" does not end in .svg", output);
 }
 
@@ -126,10 +124,14 @@ std::vector<ChartLine> chart_lines(const ChartOptions& options) {
     }
     groups[group].push_back(row);
   }
+  const double tolerance = options.x.ends_with("seconds") ? kEqualSeconds : 0;
+  const bool linear_y = options.is_linear('y');
   std::vector<ChartLine> lines;
   for (size_t i = 0; i < names.size(); ++i)
-    lines.push_back({names[i], merge_equal(groups[i], options.x == "seconds" ? kEqualSeconds : 0,
-                                           options.is_linear('y'))});
+    lines.push_back({names[i], options.labels.empty() ? merge_equal(groups[i], tolerance, linear_y)
+                                                      : merge_labels(groups[i], linear_y)});
+  if (options.bars)
+    for (ChartLine& line : lines) line.points = {line.points.back()};
   return lines;
 }
 

@@ -13,13 +13,19 @@ struct ChartOptions {
   std::string x = "seconds", y = "relmse";  // columns of numbers
   std::string lines = "method";             // column that tells the lines apart
   std::string linear;                       // axes that are not logarithmic: "", "x", "y" or "xy"
+  std::string labels;                       // column of words beside the points, or none
+  bool bars = false;                        // one bar per line: y at its largest x
   bool preprocess = false;                  // add preprocess_seconds to x
   bool png = false;                         // write a PNG beside the SVG too
 
   void validate() const;
-  bool is_linear(char axis) const { return linear.find(axis) != std::string::npos; }
+  bool is_linear(char axis) const {
+    return (bars && axis == 'y') || linear.find(axis) != std::string::npos;
+  }
   // Whether an unbiased method's error falls with slope -1 in this chart.
-  bool has_slope() const { return linear.empty() && (x == "seconds" || x == "spp"); }
+  bool has_slope() const {
+    return !bars && linear.empty() && (x == "seconds" || x == "cpu_seconds" || x == "spp");
+  }
 };
 
 // The options, with the columns `edges` and `contribution` on linear axes where the first table is
@@ -30,17 +36,18 @@ ChartOptions with_columns_of_table(const ChartOptions& options);
 struct ChartPoint {
   double x = 0, y = 0, low = 0, high = 0;
   int rows = 0;
+  std::string label;
 };
 
 struct ChartLine {
   std::string name;                // of the method, and of the scene when there are several
-  std::vector<ChartPoint> points;  // x rises
+  std::vector<ChartPoint> points;  // x rises, but where they have labels
 };
 
 // Lines in the order in which they appear. Renders that are limited by time end a little late, so
-// seconds within 5 % of each other count as equal; other columns have to be equal. Throws Error
-// naming file and row for a column that is missing and for values that logarithmic axes cannot
-// show.
+// seconds within 5 % of each other count as equal; other columns have to be equal. Where points
+// have labels, rows with one label are a point. Throws Error naming file and row for a column that
+// is missing and for values that logarithmic axes cannot show.
 std::vector<ChartLine> chart_lines(const ChartOptions& options);
 
 }  // namespace waylight

@@ -1,4 +1,4 @@
-#include "tools/chart/gnuplot.h"
+#include "tools/common/gnuplot.h"
 
 #include <array>
 #include <cmath>
@@ -60,29 +60,35 @@ std::string axis_commands(char axis, const Range& values, bool linear) {
 }
 
 std::string terminal(ChartFormat format) {
-  return format == ChartFormat::svg
-             ? "set terminal svg noenhanced size 900,600 dynamic font 'Helvetica,15' "
-               "background '#ffffff'\n"
-             : "set terminal pngcairo noenhanced size 1350,900 font 'Sans,16' "
-               "background '#ffffff'\n";
+  if (format == ChartFormat::png)
+    return "set terminal pngcairo noenhanced size 1350,900 font 'Sans,16' background '#ffffff'\n";
+  return fmt::format(
+      "set terminal svg noenhanced size {} dynamic font 'Helvetica,15' background '#ffffff'\n",
+      format == ChartFormat::svg ? "900,600" : "560,390");
 }
 
 std::string label_of(const std::string& column) {
   if (column == "seconds") return "render time (s)";
+  if (column == "cpu_seconds") return "processor time of rendering (s)";
   if (column == "spp") return "samples per pixel";
   if (column == "relmse") return "relMSE";
   if (column == "relmse_trimmed") return "relMSE without the worst 0.1 % of the pixels";
   if (column == "mape") return "MAPE";
   if (column == "mse") return "MSE";
+  if (column == "fit_seconds") return "time of fitting (s)";
+  if (column == "held_out_error") return "error on samples not fitted to";
   if (column == "edges") return "path edges";
   if (column == "contribution") return "share of the luminance";
+  if (column == "sample_ms") return "time per sample of every pixel (ms)";
+  if (column == "path_length") return "edges per path";
+  if (column == "memory_bytes") return "peak memory";
   return column;
 }
 
 std::string data_block(size_t index, const ChartLine& line) {
   std::string block = fmt::format("$line{} << EOD\n", index);
   for (const ChartPoint& p : line.points)
-    block += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.low, p.high);
+    block += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} \"{}\"\n", p.x, p.y, p.low, p.high, p.label);
   return block + "EOD\n";
 }
 
@@ -112,20 +118,52 @@ std::string plot_command(const std::vector<ChartLine>& lines, bool slope) {
         "pointsize 0.9 title {}",
         i ? ", " : "", i, kColors[i % kColors.size()], kPointTypes[i % kPointTypes.size()],
         quoted(lines[i].name));
-  return command + "\n";
+  return command;
+}
+
+std::string label_plots(const std::vector<ChartLine>& lines) {
+  std::string command;
+  for (size_t i = 0; i < lines.size(); ++i)
+    command += fmt::format(
+        ", $line{} using 1:2:5 with labels left offset 0.8,0.6 textcolor rgb '{}' notitle", i,
+        kColors[i % kColors.size()]);
+  return command;
+}
+
+// Each line's bar stands at its own number, with its range over seeds.
+std::string bar_commands(const std::vector<ChartLine>& lines) {
+  std::string ticks, plots;
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const char* separator = i ? ", " : "";
+    ticks += fmt::format("{}{} {}", separator, quoted(lines[i].name), i);
+    plots += fmt::format("{}$line{} using ({}):2 with boxes linecolor rgb '{}' notitle", separator,
+                         i, i, kColors[i % kColors.size()]);
+    if (has_band(lines[i]))
+      plots += fmt::format(
+          ", $line{} using ({}):3:(0):($4-$3) with vectors nohead linecolor rgb '#202020' "
+          "linewidth "
+          "1.5 notitle",
+          i, i);
+  }
+  return fmt::format(
+      "set boxwidth 0.6\nset style fill solid 0.85\nset xrange [-0.6:{}]\nset xtics ({}) scale 0\n"
+      "set grid noxtics\nplot {}\n",
+      lines.size() - 0.4, ticks, plots);
 }
 
 }  // namespace
 
 std::vector<double> logarithmic_ticks(double low, double high) {
-  const bool dense = std::log10(high / low) <= 2.5;
+  const double decades = std::log10(high / low);
+  const std::vector<double> digits = decades > 2.5   ? std::vector<double>{1}
+                                     : decades > 0.8 ? std::vector<double>{1, 2, 5}
+                                                     : std::vector<double>{1, 1.5, 2, 3, 4, 5, 7};
   std::vector<double> ticks;
   for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10, power) <= high;
        ++power)
-    for (int digit : {1, 2, 5}) {
-      const double tick = digit * std::pow(10, power);
-      if (tick >= low && tick <= high && (digit == 1 || dense)) ticks.push_back(tick);
-    }
+    for (double digit : digits)
+      if (const double tick = digit * std::pow(10, power); tick >= low && tick <= high)
+        ticks.push_back(tick);
   return ticks;
 }
 
@@ -141,17 +179,23 @@ std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartL
   std::string script = terminal(format) + "set output " + quoted(output) + "\n";
   for (size_t i = 0; i < lines.size(); ++i) script += data_block(i, lines[i]);
   script += "set encoding utf8\nset samples 200\n";
-  script += axis_commands('x', x, options.is_linear('x'));
+  if (!options.bars) script += axis_commands('x', x, options.is_linear('x'));
   script += axis_commands('y', y, options.is_linear('y'));
   const std::string x_label =
       options.preprocess ? "preprocessing and render time (s)" : label_of(options.x);
-  script += "set xlabel " + quoted(x_label) + "\nset ylabel " + quoted(label_of(options.y)) + "\n";
+  if (!options.bars) script += "set xlabel " + quoted(x_label) + "\n";
+  script += "set ylabel " + quoted(label_of(options.y)) + "\n";
+  if (options.y == "memory_bytes") script += "set format y '%.0s %cB'\n";
   if (!options.title.empty()) script += "set title " + quoted(options.title) + "\n";
   script +=
       "set border 3 linecolor rgb '#404040'\nset tics nomirror out textcolor rgb '#202020'\n"
       "set grid linecolor rgb '#dcdcdc' linewidth 1 linetype 1\n"
-      "set key top right opaque samplen 2.5 spacing 1.3 width 1 noautotitle\n";
-  return script + plot_command(lines, options.has_slope());
+      "set key samplen 2.5 spacing 1.3 width 1 noautotitle ";
+  script += format == ChartFormat::small_svg ? "below horizontal\n" : "top right opaque\n";
+  if (options.bars) return script + bar_commands(lines);
+  script += plot_command(lines, options.has_slope());
+  if (!options.labels.empty()) script += label_plots(lines);
+  return script + "\n";
 }
 
 void run_gnuplot(const std::string& script) {

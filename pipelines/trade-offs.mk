@@ -1,0 +1,91 @@
+# What a stage leaves to choose, as a chart of error over time with a point for each value:
+#
+#   make -f pipelines/gap-room.mk trade-off-photons PHOTONS_TRIED='100000 1000000'
+#   make -f pipelines/gap-room.mk trade-offs        all of them
+#
+# A trade-off is a list of values and the variable that takes each in the place of %. The scene's
+# pipeline runs once per value in $(OUT)/trade-off-NAME/VALUE, which begins with links to what there
+# is: so only the stage that has the option runs again, and what follows it. Results are
+# trade-off-NAME.csv and .svg. Included by studies.mk, which says STUDY_SPP.
+#
+# STUDY_METHOD     method of the renders                         the last of METHODS
+# NAME_TRIED       the values, by default as below
+# SEEDS            each value is rendered with all of them
+STUDY_METHOD ?= $(lastword $(METHODS))
+PHOTONS_TRIED ?= 62500 125000 250000 500000 1000000 2000000 4000000 8000000
+CELLS_TRIED ?= 75 150 300 600 1200 2400 4800
+MEDIUM_CELLS_TRIED ?= $(CELLS_TRIED)
+LOBES_TRIED ?= 1 2 4 8
+REDUCTIONS_TRIED ?= 0 1 5 10 20 50 90
+SPLITS_TRIED ?= 1 2 4 8 16
+FITS_TRIED ?= 1 2 4 8 16
+split_setting ?= RENDER_FLAGS='$(RENDER_FLAGS) --split %'
+
+# $(call trade_off,name,values,VARIABLE=value with %,axes of the chart)
+define trade_off
+trade_offs += trade-off-$(1)
+trade-off-$(1): $(OUT)/trade-off-$(1).svg
+$(eval $(call stamp,trade-off-$(1),$(2)))
+$(OUT)/trade-off-$(1)/%/point.csv: $$(caches_$$(study_needs)) $$(preprocess_$$(study_needs)) \
+    $(REFERENCE) FORCE
+	@mkdir -p $$(@D)
+	@find $(OUT) -maxdepth 1 -regex '.*/\(\(scene\|reduced\)\..*\|pass-.*\|.*\.json\|\.options\)' \
+	  -exec cp -alfu -t $$(@D) {} +
+	+@$(MAKE) --no-print-directory -f $(firstword $(MAKEFILE_LIST)) OUT=$$(@D) $(study_scene) \
+	  $(subst %,$$*,$(3)) $$@
+
+$(OUT)/trade-off-$(1).csv: $(2:%=$(OUT)/trade-off-$(1)/%/point.csv) \
+    $(OUT)/.options/trade-off-$(1)
+	@awk -f $(ROOT)/tables/labelled.awk column=$(1) \
+	  $(foreach v,$(2),value=$(v) $(OUT)/trade-off-$(1)/$(v)/point.csv) > $$@.tmp && mv $$@.tmp $$@
+
+$(OUT)/trade-off-$(1).svg: $(OUT)/trade-off-$(1).csv $(BIN)/chart
+	$$(LAUNCH) $(BIN)/chart $$< -o $$@ --labels $(1) $(4) --title "$(NAME): $(1)" $(QUIET)
+endef
+study_needs := $(call needs_of,$(STUDY_METHOD))
+study_scene = SCENE='$(SCENE)' SCENE_FLAGS='$(SCENE_FLAGS)' SCENE_INPUTS='$(SCENE_INPUTS)' \
+  REFERENCE='$(REFERENCE)'
+$(eval $(call trade_off,photons,$(PHOTONS_TRIED),PHOTONS=%,--preprocess))
+$(eval $(call trade_off,cells,$(CELLS_TRIED),\
+  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --photons-per-cell %',--preprocess))
+$(eval $(call trade_off,medium-cells,$(MEDIUM_CELLS_TRIED),\
+  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --medium-photons-per-cell %',--preprocess))
+$(eval $(call trade_off,lobes,$(LOBES_TRIED),\
+  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --components %',--preprocess))
+$(eval $(call trade_off,reduction,$(REDUCTIONS_TRIED),\
+  CACHE_REDUCE_FLAGS='$(CACHE_REDUCE_FLAGS) --max-cost %',--preprocess))
+$(eval $(call trade_off,split,$(SPLITS_TRIED),$(split_setting),))
+
+# One point: renders of equal samples.
+$(OUT)/point-%.exr $(OUT)/point-%.json &: $(caches_$(study_needs)) $(OUT)/.options/study \
+    $(OUT)/.options/render-$(STUDY_METHOD) $(BIN)/render
+	$(call study_render,$*) -o $(OUT)/point-$*.exr --stats $(OUT)/point-$*.json \
+	  --mode $(call mode_of,$(STUDY_METHOD)) $(call cache_flags,$(caches_$(study_needs))) \
+	  $(flags_$(STUDY_METHOD))
+$(OUT)/point-%.csv: $(OUT)/point-%.exr $(OUT)/point-%.json $(REFERENCE) \
+    $(preprocess_$(study_needs)) $(BIN)/image-compare
+	$(call measure,$(OUT)/point-$*,$(STUDY_METHOD),$(preprocess_$(study_needs)))
+$(OUT)/point.csv: $(SEEDS:%=$(OUT)/point-%.csv)
+	@awk 'FNR > 1 || NR == 1' $^ > $@.tmp && mv $@.tmp $@
+
+# Fits are judged without a render: seconds of fitting, and error on samples they have not seen.
+$(OUT)/fit/%.json: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/brdf-fit $(BIN)/brdf-fit
+	@mkdir -p $(@D)
+	$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $(SCENE_FLAGS) -o $(OUT)/fit/$*.brdf --seed $(SEED) \
+	  --stats $@ --fit $(*D) --components $(*F) --fixed-components $(BRDF_FIT_FLAGS) $(QUIET)
+
+fits := $(foreach f,em ceres,$(FITS_TRIED:%=$(OUT)/fit/$(f)/%.json))
+$(eval $(call stamp,trade-off-fit,$(FITS_TRIED)))
+$(OUT)/trade-off-fit.csv: $(fits) $(OUT)/.options/trade-off-fit
+	@(echo fit,components,fit_seconds,held_out_error; for f in em ceres; do for k in $(FITS_TRIED); do \
+	  jq -r --arg fit $$f --arg components $$k -f $(ROOT)/tables/fit.jq $(OUT)/fit/$$f/$$k.json \
+	  || exit 1; done; done) > $@.tmp && mv $@.tmp $@
+
+$(OUT)/trade-off-fit.svg: $(OUT)/trade-off-fit.csv $(BIN)/chart
+	$(LAUNCH) $(BIN)/chart $< -o $@ --x fit_seconds --y held_out_error --lines fit --labels components \
+	  --title "$(NAME): fit, by components" $(QUIET)
+trade-off-fit: $(OUT)/trade-off-fit.svg
+
+.PRECIOUS: $(OUT)/fit/%.json $(foreach e,exr json csv,$(OUT)/point-%.$(e))
+.PHONY: trade-offs trade-off-fit $(trade_offs)
+trade-offs: $(trade_offs) trade-off-fit
