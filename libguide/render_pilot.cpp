@@ -14,23 +14,14 @@ constexpr double kPilotShare = 1 / 32.0;  // of the render's paths or time
 constexpr double kLearningShare = 0.4;    // of that, for the choices of the cells
 constexpr uint64_t kMaxPaths = 1 << 20;
 constexpr double kLeastGain = 0.01;
-constexpr double kCertainty = 1.5;  // standard errors that a gain has to be worth
-constexpr int kSplit = 8;
+constexpr double kCertainty = 2;  // standard errors that a gain has to be worth
 
 // A change to what guides everything.
 struct Alternative {
   const char* name;
   void (*apply)(PathTracerOptions&);
-  bool (*excluded)(const PathTracerOptions&) = nullptr;  // makes no sense with what was taken
 };
 
-constexpr Alternative kRoulette = {"roulette by throughput", [](PathTracerOptions& o) {
-                                     o.roulette = Roulette::throughput;
-                                     o.max_split = 1;
-                                   }};
-constexpr Alternative kSplitting = {
-    "splitting", [](PathTracerOptions& o) { o.max_split = kSplit; },
-    [](const PathTracerOptions& o) { return o.roulette != Roulette::guided; }};
 constexpr Alternative kResampling = {"ris", [](PathTracerOptions& o) {
                                        o.directions.guide = DirectionGuide::resampled;
                                        o.directions.bsdf_share = default_share(RenderMode::ris);
@@ -53,8 +44,6 @@ bool has_media(const Scene& scene, bool homogeneous) {
 std::vector<Alternative> alternatives(const Scene& scene, const GuidingCaches& caches,
                                       const RenderOptions& options) {
   std::vector<Alternative> open;
-  if (options.roulette == RouletteMode::automatic) open.push_back(kRoulette);
-  if (options.split == 1 && roulette_of(options) == Roulette::guided) open.push_back(kSplitting);
   if (caches.guided()) open.push_back(kResampling);
   if (caches.media().empty()) return open;
   if (options.direction == PhaseMode::automatic) open.push_back(kPhase);
@@ -74,7 +63,10 @@ PathTracerOptions plain(const RenderOptions& options, PathTracerOptions tracing)
   tracing.directions = {};
   if (options.direction == PhaseMode::automatic) kPhase.apply(tracing);
   if (options.distance == DistanceMode::automatic) kDistance.apply(tracing);
-  if (options.roulette == RouletteMode::automatic) kRoulette.apply(tracing);
+  if (options.roulette == RouletteMode::automatic) {
+    tracing.roulette = Roulette::throughput;
+    tracing.max_split = 1;
+  }
   return tracing;
 }
 
@@ -147,7 +139,6 @@ PathTracerOptions decide(const std::vector<PilotArm>& arms, const std::vector<Al
   for (size_t i = 0; i < open.size(); ++i) {
     const double g = gain(i + 2);
     if (!(g > std::max(kCertainty * arms[i + 2].figures.uncertainty, kLeastGain))) continue;
-    if (open[i].excluded && open[i].excluded(chosen)) continue;
     open[i].apply(chosen);
     decision->method += std::string(", ") + open[i].name;
     best = std::max(best, g);

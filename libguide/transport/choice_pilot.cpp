@@ -1,6 +1,7 @@
 #include "libguide/transport/choice_pilot.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "libguide/base/parallel.h"
 
@@ -10,7 +11,9 @@ namespace {
 constexpr int kSpp = 4;        // of a place in one round
 constexpr int kMaxRounds = 2;  // over the whole frame
 constexpr int kTilesPerTurn = 32;
-constexpr float kRelativeFloor = 0.01f;  // of relMSE
+// A path's radiance is held to this many times the value of its surroundings: what is beyond would
+// decide alone, and by chance.
+constexpr double kMostOfAPath = 32;
 
 // What the paths of one tile tell, relative to the tile's mean.
 struct TileRecord {
@@ -25,19 +28,18 @@ class ChoicePilot {
 
   void trace_tile(int tile, int round, TileRecord* record) const {
     std::vector<GuidedVertex> vertices;
-    double sum = 0, squares = 0;
-    int paths = 0;
+    std::vector<double> values;
     *record = {};
     frame_.for_places(tile, [&](int place) {
-      for (int s = 0; s < kSpp; ++s, ++paths) {
-        const double radiance = trace(place, round * kSpp + s, vertices, record);
-        sum += radiance;
-        squares += radiance * radiance;
-      }
+      for (int s = 0; s < kSpp; ++s)
+        values.push_back(trace(place, round * kSpp + s, vertices, record));
     });
-    const double mean = sum / paths, scale = 1 / std::sqrt(mean * mean + kRelativeFloor);
-    record->variance = std::max(squares - sum * mean, 0.0) * scale * scale;
-    for (GuidedSample& s : record->samples) s.contribution *= static_cast<float>(scale);
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+    const double scale = relative_scale(mean);
+    for (const double value : values)
+      record->variance += sqr(std::min(value * scale, kMostOfAPath) - mean * scale);
+    for (GuidedSample& s : record->samples)
+      s.contribution = static_cast<float>(std::min(s.contribution * scale, kMostOfAPath));
   }
 
  private:

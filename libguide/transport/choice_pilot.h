@@ -19,7 +19,8 @@ struct ChoicePilotOptions {
 // tracer: one that does not split paths, and tells light_pdf where it has to. The choices by cell;
 // empty when too few paths may be traced. Up to eight paths per place. The
 // contribution of a vertex is taken relative to the mean of the tile of places that it lies in, as
-// in relMSE: over sqrt(mean^2 + 0.01). Equal at any thread count unless `stop` ends it.
+// in relMSE: over sqrt(mean^2 + 0.01),
+// and is held to 32. Equal at any thread count unless `stop` ends it.
 std::vector<CellChoice> learn_choices(const PathTracer& tracer, const PilotFrame& frame,
                                       size_t cells, const ChoicePilotOptions& options,
                                       const std::function<bool()>& stop);

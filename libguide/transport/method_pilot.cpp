@@ -10,8 +10,7 @@ namespace waylight {
 namespace {
 
 constexpr int kTilesPerTurn = 32;
-constexpr int kMaxRounds = 8;            // over the whole frame
-constexpr double kRelativeFloor = 0.01;  // of relMSE
+constexpr int kMaxRounds = 8;  // over the whole frame
 // Cost over a vertex without guide and over a standard flight, in rays.
 constexpr double kGuidedVertex = 0.4, kGuidedFlight = 2;
 
@@ -23,12 +22,12 @@ double thread_seconds() {
 
 // Of the paths of one arm through one tile, two for each place.
 struct TileSums {
-  double sum = 0, squares = 0;  // squares: half of those of the differences of pairs
+  double sum = 0, squares = 0;  // squares: of the differences of pairs
   double cost = 0;
   int pairs = 0;
 
-  double mean() const { return pairs > 0 ? sum / (2 * pairs) : 0; }
-  double variance() const { return pairs > 0 ? squares / pairs : 0; }  // of a path
+  double mean() const { return sum / (2.0 * pairs); }
+  double variance() const { return squares / (2.0 * double(pairs)); }  // of a path
 };
 
 class MethodPilot {
@@ -64,7 +63,7 @@ class MethodPilot {
     }
     ++sums.pairs;
     sums.sum += radiance[0] + radiance[1];
-    sums.squares += 0.5 * (radiance[0] - radiance[1]) * (radiance[0] - radiance[1]);
+    sums.squares += (radiance[0] - radiance[1]) * (radiance[0] - radiance[1]);
   }
 
   const PilotFrame& frame_;
@@ -72,13 +71,12 @@ class MethodPilot {
   std::vector<PathTracer> tracers_;
 };
 
-// Square of the pixels' value, as the arms agree on it: one of them may hold a firefly.
-double denominator(const std::vector<TileSums>& arms) {
+// By the pixels' value as the arms agree on it: one of them may hold a firefly.
+double scale_of(const std::vector<TileSums>& arms) {
   std::vector<double> means;
   for (const TileSums& arm : arms) means.push_back(arm.mean());
   std::nth_element(means.begin(), means.begin() + means.size() / 2, means.end());
-  const double median = means[means.size() / 2];
-  return median * median + kRelativeFloor;
+  return relative_scale(means[means.size() / 2]);
 }
 
 // What an arm missed of the light that another one found. Paths that are found once in N carry N
@@ -104,9 +102,9 @@ class ArmFigures {
   explicit ArmFigures(size_t arms) : arms_(arms), turn_(arms) {}
 
   void add(const std::vector<TileSums>& tile) {
-    const double scale = 1 / denominator(tile), paths = 2 * tile[0].pairs;
+    const double scale = scale_of(tile), paths = 2.0 * tile[0].pairs;
     for (size_t i = 0; i < tile.size(); ++i) {
-      const Unit unit{tile[i].mean() * std::sqrt(scale), tile[i].variance() * scale};
+      const Unit unit{tile[i].mean() * scale, tile[i].variance() * scale * scale};
       arms_[i].variances.push_back(unit.variance);
       arms_[i].costs.push_back(tile[i].cost / paths);
       turn_[i].mean += paths * unit.mean;
@@ -125,7 +123,8 @@ class ArmFigures {
     turn_paths_ = 0;
   }
 
-  void report(std::vector<PilotArm>& arms) const {
+  void report(std::vector<PilotArm>& arms) {
+    hold_variances();
     for (size_t i = 0; i < arms.size(); ++i) {
       arms[i].figures.variance = variance(i);
       arms[i].figures.cost = mean(arms_[i].costs);
@@ -138,6 +137,20 @@ class ArmFigures {
     double sum = 0;
     for (const double v : values) sum += v;
     return sum / double(values.size());
+  }
+  // No tile may have more than a 50th of the variance of all, or twice the mean where there are
+  // few: a single bright path would decide, and by chance.
+  void hold_variances() {
+    const double tiles = double(arms_[0].variances.size());
+    double most = kInfinity;
+    for (int i = 0; i < 16; ++i) {
+      double sum = 0;
+      for (const Arm& arm : arms_)
+        for (const double v : arm.variances) sum += std::min(v, most);
+      most = sum / double(arms_.size()) * std::max(0.02, 2 / tiles);
+    }
+    for (Arm& arm : arms_)
+      for (double& v : arm.variances) v = std::min(v, most);
   }
   // Mean of the places, relative to their value, and variance of a path.
   struct Unit {

@@ -22,10 +22,11 @@ struct MethodPilotOptions {
 };
 
 // Fills in the figures of all arms, tracing by their options, with the same places of the frame for
-// each. The variance of an arm is that between two paths of a pixel, and at least what its
-// difference from the first arm tells: paths that are found once in N have at least N times their
-// part of the mean, squared, as second moment, also while none has been found. Equal at any thread
-// count unless timed or stopped. False where not even one round could be traced.
+// each. The variance of an arm is that between two paths of a pixel, with single bright paths held,
+// and at least what its difference from the first arm tells: paths that are found once in N have at
+// least N times their part of the mean, squared, as second moment, also while none has been found.
+// Equal at any thread count unless timed or stopped. False where not even one round could be
+// traced.
 bool measure(const PathTracer& tracer, std::vector<PilotArm>& arms, const PilotFrame& frame,
              const MethodPilotOptions& options, const std::function<bool()>& stop);
 

@@ -1,10 +1,16 @@
 #pragma once
 // Where a small render before the render looks: the whole film, coarsely.
 
+#include <algorithm>
+#include <cmath>
+
 #include "libguide/base/sampler.h"
 #include "libguide/scene/camera.h"
 
 namespace waylight {
+
+// The value of places of some mean, as in relMSE.
+inline double relative_scale(double mean) { return 1 / std::sqrt(mean * mean + 0.01); }
 
 // A grid of about 16,000 places on the film, or as many as it has pixels, in tiles of 4 x 4. Each
 // place is one pixel of the film, another one in every round.
