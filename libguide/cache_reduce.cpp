@@ -9,15 +9,29 @@
 namespace waylight {
 namespace {
 
-ReductionResult reduce_one(std::span<const GaussianComponent> mixture,
-                           const CacheReduceOptions& options) {
-  return reduce_mixture(mixture, options.max_cost, options.max_components);
+// A weight, mean and covariance; a weight, direction and concentration.
+constexpr int kGaussianParameters = 6, kVmfParameters = 4;
+
+MergeLimit limit_of(double samples, int parameters, const CacheReduceOptions& options) {
+  return options.by_evidence && samples > 0 ? MergeLimit::by_evidence(samples, parameters)
+                                            : MergeLimit(options.max_cost);
 }
 
-VmfReductionResult reduce_one(std::span<const VmfComponent> mixture,
-                              const CacheReduceOptions& options) {
-  return reduce_vmf_mixture(mixture, options.max_cost, options.max_components);
+ReductionResult reduce_one(std::span<const GaussianComponent> mixture, double samples,
+                           const CacheReduceOptions& options) {
+  return reduce_mixture(mixture, limit_of(samples, kGaussianParameters, options),
+                        options.max_components);
 }
+
+VmfReductionResult reduce_one(std::span<const VmfComponent> mixture, double samples,
+                              const CacheReduceOptions& options) {
+  return reduce_vmf_mixture(mixture, limit_of(samples, kVmfParameters, options),
+                            options.max_components);
+}
+
+double samples_of(const CacheCell& cell) { return cell.effective_samples; }
+double samples_of(const MediumLight& light) { return light.effective_samples; }
+double samples_of(const BrdfCacheEntry& /*entry*/) { return 0; }  // not known
 
 // Reduces the mixtures of `owners`, each with first_component and component_count, and lays their
 // components out anew in the same order.
@@ -28,7 +42,7 @@ MixtureReduction reduce_all(std::span<Owner* const> owners, std::vector<Componen
   parallel_for(owners.size(), [&](size_t i) {
     const std::span<const Component> mixture(components.data() + owners[i]->first_component,
                                              owners[i]->component_count);
-    reduced[i] = reduce_one(mixture, options);
+    reduced[i] = reduce_one(mixture, samples_of(*owners[i]), options);
   });
   std::vector<Component> kept;
   MixtureReduction sums;

@@ -32,9 +32,9 @@ double merge_cost(const GaussianComponent& i, const GaussianComponent& j) {
   return std::max(0.5 * cost, 0.0);
 }
 
-ReductionResult reduce_mixture(std::span<const GaussianComponent> components, float max_cost,
-                               int max_components) {
-  return reduce_greedily<GaussianMixture>(components, max_cost, max_components);
+ReductionResult reduce_mixture(std::span<const GaussianComponent> components,
+                               const MergeLimit& limit, int max_components) {
+  return reduce_greedily<GaussianMixture>(components, limit, max_components);
 }
 
 }  // namespace waylight

@@ -16,10 +16,10 @@ double merge_cost(const GaussianComponent& i, const GaussianComponent& j);
 
 using ReductionResult = Reduction<GaussianComponent>;
 
-// Merges the cheapest pair while the accumulated cost stays below max_cost percent of
-// collapse_cost, and on until no more than max_components (>= 1) are left. At most 64 components;
+// Merges the cheapest pair while the accumulated cost stays within the limit, and on until no
+// more than max_components (>= 1) are left. At most 64 components;
 // those that are no Gaussians (see GaussianMixture) are left out.
-ReductionResult reduce_mixture(std::span<const GaussianComponent> components, float max_cost,
-                               int max_components);
+ReductionResult reduce_mixture(std::span<const GaussianComponent> components,
+                               const MergeLimit& limit, int max_components);
 
 }  // namespace waylight

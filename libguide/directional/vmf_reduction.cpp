@@ -36,9 +36,9 @@ double merge_cost(const VmfComponent& i, const VmfComponent& j) {
   return std::max(cost, 0.0);
 }
 
-VmfReductionResult reduce_vmf_mixture(std::span<const VmfComponent> components, float max_cost,
-                                      int max_components) {
-  return reduce_greedily<VmfMixture>(components, max_cost, max_components);
+VmfReductionResult reduce_vmf_mixture(std::span<const VmfComponent> components,
+                                      const MergeLimit& limit, int max_components) {
+  return reduce_greedily<VmfMixture>(components, limit, max_components);
 }
 
 }  // namespace waylight

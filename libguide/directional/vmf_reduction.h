@@ -22,10 +22,10 @@ double merge_cost(const VmfComponent& i, const VmfComponent& j);
 
 using VmfReductionResult = Reduction<VmfComponent>;
 
-// Merges the cheapest pair while the accumulated cost stays below max_cost percent of
-// collapse_cost, and on until no more than max_components (>= 1) are left. At most 64 lobes; those
+// Merges the cheapest pair while the accumulated cost stays within the limit, and on until no
+// more than max_components (>= 1) are left. At most 64 lobes; those
 // that are none (see VmfMixture) are left out.
-VmfReductionResult reduce_vmf_mixture(std::span<const VmfComponent> components, float max_cost,
-                                      int max_components);
+VmfReductionResult reduce_vmf_mixture(std::span<const VmfComponent> components,
+                                      const MergeLimit& limit, int max_components);
 
 }  // namespace waylight

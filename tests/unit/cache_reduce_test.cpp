@@ -51,6 +51,24 @@ TEST(CacheReduce, EntriesReferToTheirOwnReducedMixture) {
   EXPECT_DOUBLE_EQ(summary.components_after, next / 40.0);
 }
 
+TEST(CacheReduce, WhatIsKeptByEvidenceGrowsWithIt) {
+  GuideCache cache;
+  cache.components = test::random_components(8, 1);
+  cache.cells.resize(1);
+  cache.cells[0].component_count = 8;
+  CacheReduceOptions options;
+  options.by_evidence = true;
+  size_t last = 1;
+  for (const float samples : {4.0f, 100.0f, 3000.0f, 1e7f}) {
+    cache.cells[0].effective_samples = samples;
+    const size_t left = reduce(cache, options, nullptr).components.size();
+    EXPECT_GE(left, last) << samples;
+    EXPECT_EQ(left == 1, samples < 10);
+    last = left;
+  }
+  EXPECT_GE(last, 7u);
+}
+
 TEST(CacheReduce, GuideCacheLosesItsTrainingAndKeepsItsEmptyCells) {
   GuideCache cache;
   const auto components = test::random_components(8, 1);

@@ -10,11 +10,14 @@ namespace {
 
 constexpr ToolInfo kTool = {
     "cache-reduce", "Merges components of the mixtures in a .brdf or .cache file",
-    "IN -o OUT [--max-cost PERCENT] [--max-components K]",
+    "IN -o OUT [--max-cost PERCENT] [--auto] [--max-components K]",
     R"(The pair of components whose merge loses least, by Runnalls' bound of the Kullback-Leibler
 divergence, is merged until the accumulated cost reaches --max-cost percent of what collapsing the
 mixture to one component would cost. Fewer components make product sampling cheaper. Lobes of media
 are merged in the same way.
+
+With --auto a cache keeps as many components as the photons of each cell give evidence of: a merge
+has to lose less log-likelihood than its parameters are worth (Akaike's information criterion).
 
 A reduced cache cannot be trained further: keep the file it came from.
 
@@ -29,6 +32,8 @@ void declare(CLI::App& app, CacheReduceArguments& arguments) {
       ->required();
   app.add_option("--max-cost", arguments.options.max_cost,
                  "Percent of the cost of collapsing a mixture to one component");
+  app.add_flag("--auto", arguments.options.by_evidence,
+               "Of a cache, merge what its photons cannot tell apart, instead; not of fits");
   app.add_option("--max-components", arguments.options.max_components,
                  "Merge on until a mixture has no more than these")
       ->check(CLI::Range(1, 8));
