@@ -23,13 +23,17 @@ void declare_labels(CLI::App& app, ImageCompareOptions& options) {
 void declare(CLI::App& app, ImageCompareOptions& options) {
   as_input(app.add_option("IMAGE", options.image, "Image to judge"))->required();
   as_input(app.add_option("REFERENCE", options.reference, "What it should be"))->required();
+  as_input(app.add_option("--repeat", options.repeats,
+                          "Render of IMAGE with another seed: the mean of all is judged"))
+      ->allow_extra_args(false);
   as_output(app.add_option("--csv", options.csv, "Append the figures as a row of this table"));
   as_output(
       app.add_option("--error-image", options.error_image,
                      "Relative error in false colours (.png), or with the differences (.exr)"),
       {".png", ".exr"});
-  app.add_option("--z", options.variances, "Variance of the mean: a picture, or `self`; repeatable")
-      ->type_name("self|FILE")
+  app.add_option("--z", options.variances,
+                 "Variance of the mean: a picture, `self` or `spread`; repeatable")
+      ->type_name("self|spread|FILE")
       ->allow_extra_args(false);
   app.add_option("--z-samples", options.variance_samples,
                  "Variance pictures are of one sample; divide them by this number of samples");

@@ -12,8 +12,9 @@ namespace waylight {
 
 struct ImageCompareOptions {
   std::string image, reference;
+  std::vector<std::string> repeats;           // renders of the image with other seeds
   std::string csv, error_image;               // files to write, empty: none
-  std::vector<std::string> variances;         // pictures, or "self"
+  std::vector<std::string> variances;         // pictures, "self" or "spread"
   double variance_samples = 1;                // pictures of variances are divided by this
   int tile_size = 8;                          // pixels, 1..4096
   std::vector<std::string> labels;            // name=value
