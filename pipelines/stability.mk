@@ -91,7 +91,7 @@ $(OUT)/inputs/done: $(STABILITY)/inputs.sh $(wildcard $(STABILITY)/*.awk) $(BIN)
 	$(STABILITY)/inputs.sh $(@D) $(BIN)
 	@touch $@
 
-export INPUTS = $(OUT)/inputs
+export INPUTS = $(abspath $(OUT))/inputs
 export TABLE = $(table)
 export METHODS = $(OUT)/.options/methods
 export BIN SIZE SPP SEEDS REFERENCE_SPP PHOTONS ENTRIES LIMIT TIMED

@@ -1,5 +1,5 @@
 #pragma once
-// The mean of several renders of one picture, and how well it is known.
+// The mean of several renders of one picture, or of their variances.
 
 #include <span>
 
@@ -7,12 +7,7 @@
 
 namespace waylight {
 
-struct MeanPicture {
-  Bitmap mean;
-  Bitmap variance;  // of the mean, sum (x_i - mean)^2 / (n (n - 1)); zero of a single picture
-};
-
 // Throws Misuse when there is none, or their sizes differ.
-MeanPicture mean_picture(std::span<const Bitmap> pictures);
+Bitmap mean_picture(std::span<const Bitmap> pictures);
 
 }  // namespace waylight

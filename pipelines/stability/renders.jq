@@ -36,10 +36,11 @@ def finite($m): ($m[2:] | map(.invalid_samples) | add) as $invalid
   | if $m[0].non_finite > 0 then "\($m[0].non_finite) pixels not finite"
     elif $invalid > 0 then "\($invalid) samples not finite" else "pass" end;
 def worst($m; key): $m[3:] | map(key) | max;
+# Edges of a path and of each of its copies.
+def edges: .mean_path_length / (1 + .copies_per_path);
 def bounded($m):
-  if worst($m; .mean_path_length) > $longest
-    then "paths of \(worst($m; .mean_path_length) | digits(1)) edges"
-  elif worst($m; .copies_per_path) > 16 then "\(worst($m; .copies_per_path) | digits(1)) copies"
+  if worst($m; edges) > $longest then "paths of \(worst($m; edges) | digits(1)) edges"
+    elif worst($m; .copies_per_path) > 64 then "\(worst($m; .copies_per_path) | digits(1)) copies"
   elif worst($m; .peak_memory_bytes) > 5e8 then "\(worst($m; .peak_memory_bytes) / 1e6 | round) MB"
   else "pass" end;
 def harmless($h): if $h == null then "-"

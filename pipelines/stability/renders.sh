@@ -19,7 +19,7 @@ make_caches() {
 # render_one NAME SAMPLES SEED FLAGS...
 render_one() {
   attempt "$1" "$BIN/render" "$scene" -o "$folder/$1.exr" --stats "$folder/$1.json" --size "$SIZE" \
-    --threads 1 --spp "$2" --seed "$3" "${@:4}" --quiet
+    --threads 1 --aov variance --spp "$2" --seed "$3" "${@:4}" --quiet
 }
 
 cache_flags() {
@@ -46,7 +46,7 @@ render_all() {
 compare() {
   local repeats=()
   for ((seed = 2; seed <= SEEDS; ++seed)); do repeats+=(--repeat "$folder/$1-$seed.exr"); done
-  "$BIN/image-compare" "$folder/$1-1.exr" "$folder/reference.exr" "${repeats[@]}" --z spread \
+  "$BIN/image-compare" "$folder/$1-1.exr" "$folder/reference.exr" "${repeats[@]}" --z self --z-floor 0.01 \
     --tile "$2" --json 2>> "$folder/log"
 }
 
@@ -63,5 +63,6 @@ judge_method() {
 }
 
 make_caches
-render_one reference "$reference_spp" 1000003 --aov variance $flags $reference
+read -r _ _ caches how < <(methods | awk -v method="$reference_method" '$2 == method')
+render_one reference "$reference_spp" 1000003 ${reference:-$flags} $how $(cache_flags "$caches")
 render_all

@@ -11,6 +11,7 @@ name=$1 folder=$2
 rm -rf "$folder"
 mkdir -p "$folder"
 flags='' reference='' photons=$PHOTONS spp=$SPP reference_spp=$REFERENCE_SPP longest=64
+reference_method=bsdf
 IFS='|' read -r _ row set scene settings < <(grep -E "^$name +\|" "$TABLE")
 read -r row set scene <<< "$row $set $scene"
 eval "$settings"

@@ -31,12 +31,13 @@ void declare(CLI::App& app, ImageCompareOptions& options) {
       app.add_option("--error-image", options.error_image,
                      "Relative error in false colours (.png), or with the differences (.exr)"),
       {".png", ".exr"});
-  app.add_option("--z", options.variances,
-                 "Variance of the mean: a picture, `self` or `spread`; repeatable")
-      ->type_name("self|spread|FILE")
+  app.add_option("--z", options.variances, "Variance of the mean: a picture, or `self`; repeatable")
+      ->type_name("self|FILE")
       ->allow_extra_args(false);
   app.add_option("--z-samples", options.variance_samples,
                  "Variance pictures are of one sample; divide them by this number of samples");
+  app.add_option("--z-floor", options.z_floor,
+                 "Deviation that differences may have beside it, as a share of the mean");
   app.add_option("--tile", options.tile_size, "Side of the tiles that have z-scores, in pixels");
   declare_labels(app, options);
   app.add_option("--crop", options.crop, "Compare this window only, in pixels")

@@ -2,7 +2,6 @@
 
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "formats/image_io.h"
@@ -49,13 +48,14 @@ Bitmap colors_in(const Image& image, const std::string& path, const std::string&
   return color_of(image, prefix);
 }
 
-// The image and its repeats, in the window.
+// Colours of the image and its repeats, in the window.
 std::vector<Bitmap> read_renders(const ImageCompareOptions& options, const Image& image,
-                                 const Framing& frame) {
+                                 const Framing& frame, const std::string& prefix,
+                                 PixelQuantity quantity) {
   std::vector<Bitmap> renders = {
-      frame(colors_in(image, options.image, ""), options.image, PixelQuantity::mean)};
+      frame(colors_in(image, options.image, prefix), options.image, quantity)};
   for (const std::string& path : options.repeats)
-    renders.push_back(frame(colors_in(read_image(path), path, ""), path, PixelQuantity::mean));
+    renders.push_back(frame(colors_in(read_image(path), path, prefix), path, quantity));
   return renders;
 }
 
@@ -71,31 +71,33 @@ void add(Bitmap& sum, const Bitmap& term, double divisor) {
     sum.pixels[i] += term.pixels[i] / static_cast<float>(divisor);
 }
 
-// Of the difference: the sum of all variances named, each already in the window; `spread` is that
-// of the mean of several renders.
+// Of the difference: the sum of all variances named, each already in the window.
 Bitmap total_variance(const ImageCompareOptions& options, const Image& image,
-                      const Image& reference, const Bitmap& spread, const Framing& frame) {
-  Bitmap sum = spread;
-  for (Color& color : sum.pixels) color.setZero();
-  const auto add_term = [&](const Image& source, const std::string& path, const std::string& prefix,
-                            double divisor) {
-    add(sum, frame(colors_in(source, path, prefix), path, PixelQuantity::variance), divisor);
+                      const Image& reference, const Framing& frame) {
+  std::optional<Bitmap> sum;
+  const auto add_term = [&](const Bitmap& term, double divisor) {
+    if (!sum) {
+      sum = term;
+      for (Color& color : sum->pixels) color.setZero();
+    }
+    add(*sum, term, divisor);
   };
-  const auto add_own = [&](const Image& source, const std::string& path) {
-    if (has_color(source, kVariance)) add_term(source, path, kVariance, 1);
+  const auto of_file = [&](const Image& source, const std::string& path,
+                           const std::string& prefix) {
+    return frame(colors_in(source, path, prefix), path, PixelQuantity::variance);
   };
   for (const std::string& variance : options.variances) {
     if (variance == "self") {
-      add_term(image, options.image, kVariance, 1);
-      add_own(reference, options.reference);
-    } else if (variance == "spread") {
-      add(sum, spread, 1);
-      add_own(reference, options.reference);
+      const std::vector<Bitmap> own =
+          read_renders(options, image, frame, kVariance, PixelQuantity::variance);
+      add_term(mean_picture(own), static_cast<double>(own.size()));
+      if (has_color(reference, kVariance))
+        add_term(of_file(reference, options.reference, kVariance), 1);
     } else {
-      add_term(read_image(variance), variance, "", options.variance_samples);
+      add_term(of_file(read_image(variance), variance, ""), options.variance_samples);
     }
   }
-  return sum;
+  return *sum;
 }
 
 void write_error_image(const std::string& path, const Bitmap& image, const Bitmap& reference) {
@@ -136,12 +138,9 @@ CsvRow csv_row(const ImageLabels& labels, const CompareFigures& figures,
 }  // namespace
 
 void ImageCompareOptions::validate() const {
-  const bool spread = std::ranges::count(variances, "spread") > 0;
-  require(!spread || !repeats.empty(), "--z spread wants several renders: --repeat");
-  require(repeats.empty() || !std::ranges::count(variances, "self"),
-          "--z self is of one render; --z spread is of several");
   require(crop.empty() || crop.size() == 4, "--crop wants x,y,width,height");
   require(tile_size >= 1 && tile_size <= 4096, "--tile {} is not in 1..4096", tile_size);
+  require(z_floor >= 0, "--z-floor {} is negative", z_floor);
   require(variance_samples >= 1, "--z-samples {} is less than 1", variance_samples);
 }
 
@@ -150,14 +149,14 @@ void image_compare(const ToolRun& run, const ImageCompareOptions& options) {
   const ImageLabels labels = collect_labels(options);
   const Image image = read_image(options.image), reference = read_image(options.reference);
   const Framing frame(options, image.width, image.height);
-  const std::vector<Bitmap> renders = read_renders(options, image, frame);
-  const auto [x, spread] = mean_picture(renders);
+  const std::vector<Bitmap> renders = read_renders(options, image, frame, "", PixelQuantity::mean);
+  const Bitmap x = mean_picture(renders);
   const Bitmap ref =
       frame(colors_in(reference, options.reference, ""), options.reference, PixelQuantity::mean);
   ComparisonReport report{waylight::compare(x, ref), relmse_of_each(renders, ref), {}};
   if (!options.variances.empty())
-    report.z = z_scores(x, ref, total_variance(options, image, reference, spread, frame),
-                        options.tile_size);
+    report.z = z_scores(x, ref, total_variance(options, image, reference, frame), options.tile_size,
+                        options.z_floor * report.figures.ref_mean);
   if (report.figures.non_finite > 0)
     run.control.warn(
         fmt::format("{} pixels are not finite and left out", report.figures.non_finite));
