@@ -42,18 +42,21 @@ render_all() {
   done
 }
 
-# compare METHOD TILE: the mean of all seeds.
+# compare METHOD TILE FLOOR: the mean of all seeds.
 compare() {
   local repeats=()
   for ((seed = 2; seed <= SEEDS; ++seed)); do repeats+=(--repeat "$folder/$1-$seed.exr"); done
-  "$BIN/image-compare" "$folder/$1-1.exr" "$folder/reference.exr" "${repeats[@]}" --z self --z-floor 0.01 \
-    --tile "$2" --json 2>> "$folder/log"
+  "$BIN/image-compare" "$folder/$1-1.exr" "$folder/reference.exr" "${repeats[@]}" --z self \
+    --tile "$2" --z-floor "$3" --json 2>> "$folder/log"
 }
 
 figures() {
   [[ -e $folder/$method.failed ]] && { echo null; return; }
-  { compare "$method" 8; compare "$method" 4096; cat "$folder/reference.json" "$folder/$method"-[0-9]*.json; } |
-    jq -s .
+  {
+    compare "$method" 8 0.01
+    compare "$method" 4096 0
+    cat "$folder/reference.json" "$folder/$method"-[0-9]*.json
+  } | jq -s .
 }
 
 judge_method() {
