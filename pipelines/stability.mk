@@ -51,9 +51,9 @@ include $(ROOT)/media-methods.mk
 
 # Sets of methods, each a mode of `render` or a name with mode_NAME and flags_NAME; the first is what
 # the others must do no harm to.
-surface_methods := bsdf illumination mixture ris product product-split
+surface_methods := bsdf illumination mixture ris product product-split auto
 splitting_methods := bsdf product product-split split-20 split-preview
-medium_methods := bsdf illumination product $(guided_methods) all
+medium_methods := bsdf illumination product $(guided_methods) all auto
 mode_product-split := product
 flags_product-split := --split $(SPLIT)
 mode_split-20 := product
@@ -65,6 +65,7 @@ caches_illumination := cache
 caches_ris := cache
 caches_product := cache+brdf
 caches_mixture := cache+brdf
+caches_auto := cache+brdf
 mode_of = $(or $(mode_$(1)),$(1))
 caches_of = $(caches_$(or $(needs_$(1)),$(call mode_of,$(1))))
 rows_of = $(foreach m,$($(2)),'$(1) $(m) $(call caches_of,$(m)) --mode $(call mode_of,$(m)) $(flags_$(m))')
