@@ -1,6 +1,6 @@
 # The table as a page that needs nothing else, from table.jq. Hovering a cell shows what was measured.
 def unique_in_order: reduce .[] as $x ([]; if index([$x]) then . else . + [$x] end);
-def measured: [if .cost_ratio // "" != "" then "cost × \(.cost_ratio) ± \(.cost_error)" else empty end,
+def measured: [if (.cost_ratio // "") != "" then "cost × \(.cost_ratio) ± \(.cost_error)" else empty end,
   if .tiles then "\(.beyond3) of \(.tiles) scores beyond 3σ, \(.allowed3) allowed; image \(.image_z)σ" else empty end,
   if .path_length then "\(.path_length) edges, \(.copies) copies, \(.memory_mb) MB" else empty end,
   .reason | select(. != "")] | join("\n");
