@@ -52,8 +52,6 @@ PhotonTraceSummary trace_photons(const Scene& scene, const PhotonTraceOptions& o
           "--importance guides photons: it does not go with --from camera");
   if (!importance.cells.empty() && importance.quantity != Quantity::importance)
     fail("photons are guided by a cache of importance, and this one holds radiance");
-  if (options.quantity == Quantity::radiance && !scene.has_lights())
-    fail("the scene has no emitter, so there are no photons to trace");
   const auto start = std::chrono::steady_clock::now();
   const PhotonTracer tracer(scene,
                             {options.quantity, options.max_depth, options.rr_depth,

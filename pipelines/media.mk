@@ -1,39 +1,11 @@
-# The methods of pipelines through media, one to each way of making the four decisions of a path:
-# whether to scatter and where (--distance), in what direction (--direction), and when to end or
-# split (--rr, --split). A pipeline sets a scene and options and includes this file, which includes
-# rules.mk. Surfaces are sampled by their BSDF, but in `all` by the cache too.
-#
-#   none           standard decisions, roulette by throughput
-#   distance       distances guided
-#   direction      directions by the product of phase function and incident light
-#   direction-mix  the mean of the two in place of their product
-#   both           distances guided, and directions by the product
-#   no-rr          both, without roulette
-#   guided-rr      both, roulette by expected contribution
-#   splitting      the same, and up to SPLIT copies
-#   all            the same, and surfaces guided too
-#
-# Each takes part that METHODS names. The reference is made by `all` without splitting.
-SPLIT ?= 8
+# Pipelines through media: the methods of media-methods.mk, each of which takes part that METHODS
+# names. A pipeline sets a scene and options and includes this file, which includes rules.mk. The
+# reference is made by `all` without splitting.
 METHODS ?= none distance direction both all
 REFERENCE_MODE ?= illumination
 REFERENCE_FLAGS ?= --distance guided --direction product
 
 split_setting := SPLIT=%
-guided_media := --distance guided --direction product
-flags_none := --distance standard --direction standard --rr throughput
-flags_distance := --distance guided --direction standard --rr throughput
-flags_direction := --distance standard --direction product --rr throughput
-flags_direction-mix := --distance standard --direction mixture --rr throughput
-flags_both := $(guided_media) --rr throughput
-flags_no-rr := $(guided_media) --rr none
-flags_guided-rr := $(guided_media) --rr guided
-flags_splitting := $(guided_media) --rr guided --split $(SPLIT)
-flags_all := $(guided_media) --rr guided --split $(SPLIT)
 
-mode_none := bsdf
-mode_all := illumination
-guided_methods := distance direction direction-mix both no-rr guided-rr splitting
-$(foreach m,$(guided_methods),$(eval mode_$(m) := bsdf)$(eval needs_$(m) := illumination))
-
+include $(dir $(lastword $(MAKEFILE_LIST)))media-methods.mk
 include $(dir $(lastword $(MAKEFILE_LIST)))rules.mk

@@ -55,30 +55,32 @@ void check(const Bitmap& image, const Bitmap& reference, const Bitmap& variance,
 
 // Adds the pixels of one tile, and the tile itself when any of its pixels counts.
 void add_tile(const Bitmap& image, const Bitmap& reference, const Bitmap& variance, int x0, int y0,
-              int tile_size, ZCounter& pixels, ZCounter& tiles) {
+              int tile_size, double floor, ZCounter& pixels, ZCounter& tiles) {
   Sum difference = Sum::Zero(), variances = Sum::Zero();
+  double count = 0;
   for (int y = y0; y < std::min(y0 + tile_size, image.height); ++y) {
     for (int x = x0; x < std::min(x0 + tile_size, image.width); ++x) {
       const Color &value = image.at(x, y), &ref = reference.at(x, y), &var = variance.at(x, y);
       if (!is_finite(value) || !is_finite(ref) || !is_finite(var)) continue;
       const Sum pixel_difference = value.cast<double>() - ref.cast<double>();
-      pixels.add(pixel_difference, var.cast<double>());
+      pixels.add(pixel_difference, var.cast<double>() + floor * floor);
       difference += pixel_difference;
       variances += var.cast<double>();
+      ++count;
     }
   }
-  tiles.add(difference, variances);
+  tiles.add(difference, variances + count * floor * count * floor);
 }
 
 }  // namespace
 
 ZScores z_scores(const Bitmap& image, const Bitmap& reference, const Bitmap& variance,
-                 int tile_size) {
+                 int tile_size, double floor) {
   check(image, reference, variance, tile_size);
   ZCounter pixels, tiles;
   for (int y = 0; y < image.height; y += tile_size)
     for (int x = 0; x < image.width; x += tile_size)
-      add_tile(image, reference, variance, x, y, tile_size, pixels, tiles);
+      add_tile(image, reference, variance, x, y, tile_size, floor, pixels, tiles);
   return {pixels.finish(), tiles.finish()};
 }
 

@@ -29,10 +29,10 @@ struct ZScores {
   ZDistribution tiles;
 };
 
-// `variance` is that of x - ref. Colours without variance that are equal, and pixels that are not
-// finite, have no score. Throws Misuse when sizes differ or tile_size < 1, Error when a variance is
-// negative.
+// `variance` is that of x - ref; `floor` a deviation that every difference may have beside it.
+// Colours without variance that are equal, and pixels that are not finite, have no score. Throws
+// Misuse when sizes differ or tile_size < 1, Error when a variance is negative.
 ZScores z_scores(const Bitmap& image, const Bitmap& reference, const Bitmap& variance,
-                 int tile_size = 8);
+                 int tile_size = 8, double floor = 0);
 
 }  // namespace waylight

@@ -23,6 +23,9 @@ void declare_labels(CLI::App& app, ImageCompareOptions& options) {
 void declare(CLI::App& app, ImageCompareOptions& options) {
   as_input(app.add_option("IMAGE", options.image, "Image to judge"))->required();
   as_input(app.add_option("REFERENCE", options.reference, "What it should be"))->required();
+  as_input(app.add_option("--repeat", options.repeats,
+                          "Render of IMAGE with another seed: the mean of all is judged"))
+      ->allow_extra_args(false);
   as_output(app.add_option("--csv", options.csv, "Append the figures as a row of this table"));
   as_output(
       app.add_option("--error-image", options.error_image,
@@ -33,6 +36,8 @@ void declare(CLI::App& app, ImageCompareOptions& options) {
       ->allow_extra_args(false);
   app.add_option("--z-samples", options.variance_samples,
                  "Variance pictures are of one sample; divide them by this number of samples");
+  app.add_option("--z-floor", options.z_floor,
+                 "Deviation that differences may have beside it, as a share of the mean");
   app.add_option("--tile", options.tile_size, "Side of the tiles that have z-scores, in pixels");
   declare_labels(app, options);
   app.add_option("--crop", options.crop, "Compare this window only, in pixels")

@@ -6,6 +6,7 @@
 
 #include "formats/image_io.h"
 #include "libguide/base/error.h"
+#include "libguide/image/mean_picture.h"
 #include "libguide/image/picture.h"
 #include "tools/common/csv.h"
 #include "tools/image-compare/report.h"
@@ -47,6 +48,24 @@ Bitmap colors_in(const Image& image, const std::string& path, const std::string&
   return color_of(image, prefix);
 }
 
+// Colours of the image and its repeats, in the window.
+std::vector<Bitmap> read_renders(const ImageCompareOptions& options, const Image& image,
+                                 const Framing& frame, const std::string& prefix,
+                                 PixelQuantity quantity) {
+  std::vector<Bitmap> renders = {
+      frame(colors_in(image, options.image, prefix), options.image, quantity)};
+  for (const std::string& path : options.repeats)
+    renders.push_back(frame(colors_in(read_image(path), path, prefix), path, quantity));
+  return renders;
+}
+
+std::vector<double> relmse_of_each(const std::vector<Bitmap>& renders, const Bitmap& reference) {
+  std::vector<double> result;
+  for (const Bitmap& render : renders)
+    result.push_back(waylight::compare(render, reference).relmse);
+  return result;
+}
+
 void add(Bitmap& sum, const Bitmap& term, double divisor) {
   for (size_t i = 0; i < sum.pixels.size(); ++i)
     sum.pixels[i] += term.pixels[i] / static_cast<float>(divisor);
@@ -56,21 +75,26 @@ void add(Bitmap& sum, const Bitmap& term, double divisor) {
 Bitmap total_variance(const ImageCompareOptions& options, const Image& image,
                       const Image& reference, const Framing& frame) {
   std::optional<Bitmap> sum;
-  const auto add_term = [&](const Image& source, const std::string& path, const std::string& prefix,
-                            double divisor) {
-    const Bitmap term = frame(colors_in(source, path, prefix), path, PixelQuantity::variance);
+  const auto add_term = [&](const Bitmap& term, double divisor) {
     if (!sum) {
       sum = term;
       for (Color& color : sum->pixels) color.setZero();
     }
     add(*sum, term, divisor);
   };
+  const auto of_file = [&](const Image& source, const std::string& path,
+                           const std::string& prefix) {
+    return frame(colors_in(source, path, prefix), path, PixelQuantity::variance);
+  };
   for (const std::string& variance : options.variances) {
     if (variance == "self") {
-      add_term(image, options.image, kVariance, 1);
-      if (has_color(reference, kVariance)) add_term(reference, options.reference, kVariance, 1);
+      const std::vector<Bitmap> own =
+          read_renders(options, image, frame, kVariance, PixelQuantity::variance);
+      add_term(mean_picture(own), static_cast<double>(own.size()));
+      if (has_color(reference, kVariance))
+        add_term(of_file(reference, options.reference, kVariance), 1);
     } else {
-      add_term(read_image(variance), variance, "", options.variance_samples);
+      add_term(of_file(read_image(variance), variance, ""), options.variance_samples);
     }
   }
   return *sum;
@@ -116,6 +140,7 @@ CsvRow csv_row(const ImageLabels& labels, const CompareFigures& figures,
 void ImageCompareOptions::validate() const {
   require(crop.empty() || crop.size() == 4, "--crop wants x,y,width,height");
   require(tile_size >= 1 && tile_size <= 4096, "--tile {} is not in 1..4096", tile_size);
+  require(z_floor >= 0, "--z-floor {} is negative", z_floor);
   require(variance_samples >= 1, "--z-samples {} is less than 1", variance_samples);
 }
 
@@ -124,13 +149,14 @@ void image_compare(const ToolRun& run, const ImageCompareOptions& options) {
   const ImageLabels labels = collect_labels(options);
   const Image image = read_image(options.image), reference = read_image(options.reference);
   const Framing frame(options, image.width, image.height);
-  const Bitmap x = frame(colors_in(image, options.image, ""), options.image, PixelQuantity::mean);
+  const std::vector<Bitmap> renders = read_renders(options, image, frame, "", PixelQuantity::mean);
+  const Bitmap x = mean_picture(renders);
   const Bitmap ref =
       frame(colors_in(reference, options.reference, ""), options.reference, PixelQuantity::mean);
-  ComparisonReport report{waylight::compare(x, ref), {}};
+  ComparisonReport report{waylight::compare(x, ref), relmse_of_each(renders, ref), {}};
   if (!options.variances.empty())
-    report.z =
-        z_scores(x, ref, total_variance(options, image, reference, frame), options.tile_size);
+    report.z = z_scores(x, ref, total_variance(options, image, reference, frame), options.tile_size,
+                        options.z_floor * report.figures.ref_mean);
   if (report.figures.non_finite > 0)
     run.control.warn(
         fmt::format("{} pixels are not finite and left out", report.figures.non_finite));

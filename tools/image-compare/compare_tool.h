@@ -12,10 +12,12 @@ namespace waylight {
 
 struct ImageCompareOptions {
   std::string image, reference;
+  std::vector<std::string> repeats;           // renders of the image with other seeds
   std::string csv, error_image;               // files to write, empty: none
   std::vector<std::string> variances;         // pictures, or "self"
   double variance_samples = 1;                // pictures of variances are divided by this
   int tile_size = 8;                          // pixels, 1..4096
+  double z_floor = 0;                         // deviation, as a share of the reference's mean
   std::vector<std::string> labels;            // name=value
   std::string stats;                          // JSON of `render --stats`
   std::vector<std::string> preprocess_stats;  // JSON of other stages

@@ -50,6 +50,7 @@ nlohmann::ordered_json to_json(const ImageLabels& labels, const ComparisonReport
                {"mean", f.mean},
                {"ref_mean", f.ref_mean},
                {"mean_ratio", f.mean_ratio()}});
+  if (report.relmse_of_each.size() > 1) json["relmse_of_each"] = report.relmse_of_each;
   if (report.z)
     json["z"] = {{"pixels", as_json(report.z->pixels)}, {"tiles", as_json(report.z->tiles)}};
   return json;

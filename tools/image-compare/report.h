@@ -12,6 +12,7 @@ namespace waylight {
 
 struct ComparisonReport {
   CompareFigures figures;
+  std::vector<double> relmse_of_each;  // of several renders
   std::optional<ZScores> z;
 };
 

@@ -66,8 +66,9 @@ void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArg
       build_scene(load_scene(arguments.scene, run), arguments.scene, run);
   const Scene& scene = *built;
   if (options.quantity == Quantity::radiance && !scene.has_lights())
-    fail("\"{}\": no emitter sends light into the scene, so there are no photons to trace",
-         arguments.scene.path);
+    run.control.warn(
+        fmt::format("\"{}\": no emitter sends light into the scene: there are no photons to trace",
+                    arguments.scene.path));
   const std::optional<MappedCache> importance = open_importance(arguments, scene.description());
   Provenance provenance =
       provenance_of(run, tool, options.seed, arguments.scene, scene.description().hash);

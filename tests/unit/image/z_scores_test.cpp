@@ -56,6 +56,16 @@ TEST(ZScores, TilesShowABiasThatPixelsHide) {
   EXPECT_GT(z.tiles.mean, 2);
 }
 
+TEST(ZScores, AFloorTakesDifferencesForNoiseThatAreSmallerThanIt) {
+  const Bitmap image = constant(16, 16, 0.01f), reference = constant(16, 16, 0),
+               variance = constant(16, 16, 0);
+  EXPECT_EQ(z_scores(image, reference, variance).tiles.unexplained, 12u);
+  const ZScores z = z_scores(image, reference, variance, 8, 0.01);
+  EXPECT_EQ(z.tiles.count, 12u);
+  EXPECT_NEAR(z.tiles.largest, 1, 1e-6);
+  EXPECT_NEAR(z.pixels.largest, 1, 1e-6);
+}
+
 TEST(ZScores, OfOnePixelAreTheDifferenceInSigmas) {
   Bitmap image = constant(1, 1, 0), variance = image;
   image.pixels[0] = Color(3, -1, 0);
