@@ -20,7 +20,8 @@ uint32_t version_of(const GuideCache& cache) {
 size_t bytes_needed(const CacheFile& file) {
   const GuideCache& c = file.cache;
   return provenance_bytes(file.provenance) + c.nodes.size() * sizeof(CacheNode) +
-         c.cells.size() * sizeof(CacheCell) + c.components.size() * sizeof(GaussianComponent) +
+         c.cells.size() * sizeof(CacheCell) + c.reaches.size() * sizeof(CellReach) +
+         c.components.size() * sizeof(GaussianComponent) +
          c.statistics.size() * sizeof(ComponentStatistics) +
          c.training.size() * sizeof(CellTraining) +
          (c.escape_bins.size() + c.escape_weights.size()) * sizeof(float) + medium_bytes(c.medium);
@@ -73,6 +74,8 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
   const auto components = add_records(builder, c.components);
   const auto cells = add_records(builder, c.cells);
   const auto nodes = add_records(builder, c.nodes);
+  flatbuffers::Offset<flatbuffers::Vector<const fbs::CellReach*>> reaches;
+  if (!c.reaches.empty()) reaches = add_records(builder, c.reaches);
   flatbuffers::Offset<flatbuffers::Vector<uint32_t>> escape_bins;
   flatbuffers::Offset<flatbuffers::Vector<float>> escape_weights;
   if (!c.escape_bins.empty()) escape_bins = builder.CreateVector(c.escape_bins);
@@ -85,7 +88,7 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
                    builder, version_of(c), provenance, &bounds, c.emitted, c.passes, c.photons,
                    nodes, cells, components, statistics, training, waylight::to_flat(c.quantity),
                    escape_bins, escape_weights, c.medium.emitted, c.medium.photons, medium.nodes,
-                   medium.cells, medium.components, medium.statistics, medium.training));
+                   medium.cells, medium.components, medium.statistics, medium.training, reaches));
 }
 
 const fbs::GuideCache& root_of(const FileMap& map) {
@@ -103,6 +106,7 @@ GuideCacheView view_of(const fbs::GuideCache& root, const std::string& path) {
                       records_of<CacheCell>(root.cells(), path),
                       records_of<GaussianComponent>(root.components(), path));
   view.quantity = quantity_from(root.quantity(), path);
+  view.reaches = records_of<CellReach>(root.reaches(), path);
   view.escape_bins = numbers_of(root.escape_bins());
   view.escape_weights = numbers_of(root.escape_weights());
   view.medium = medium_view_of(root, path);
@@ -115,6 +119,7 @@ GuideCache copy_of(const fbs::GuideCache& root, const std::string& path) {
   GuideCache cache;
   cache.quantity = view.quantity;
   cache.scene_bounds = view.scene_bounds;
+  cache.reaches = waylight::copy_of(view.reaches);
   cache.escape_bins = waylight::copy_of(view.escape_bins);
   cache.escape_weights = waylight::copy_of(view.escape_weights);
   cache.emitted = root.emitted();

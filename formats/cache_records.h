@@ -10,6 +10,7 @@ namespace waylight {
 
 FLAT_RECORD(CacheNode, fbs::CacheNode);
 FLAT_RECORD(CacheCell, fbs::CacheCell);
+FLAT_RECORD(CellReach, fbs::CellReach);
 FLAT_RECORD(ComponentStatistics, fbs::ComponentStatistics);
 FLAT_RECORD(CellTraining, fbs::CellTraining);
 static_assert(offsetof(CacheCell, irradiance) == 12 && offsetof(CacheCell, component_count) == 32);

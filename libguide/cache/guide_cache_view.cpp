@@ -29,6 +29,15 @@ std::string check_cell(const CacheCell& cell, std::span<const GaussianComponent>
   return check_mixture(components.subspan(cell.first_component, cell.component_count));
 }
 
+std::string check_reaches(const GuideCacheView& view) {
+  if (!view.reaches.empty() && view.reaches.size() != view.cells.size())
+    return "the reaches do not belong to their cells";
+  for (const CellReach& reach : view.reaches)
+    if (!reach.centre.allFinite() || !(reach.radius >= 0))
+      return "the reach of a cell is negative or no number";
+  return {};
+}
+
 std::string check_escapes(const GuideCacheView& view) {
   if (view.escape_weights.size() != view.escape_bins.size() * EscapeMap::kCells)
     return "the escapes do not belong to their bins";
@@ -53,6 +62,7 @@ std::string check(const GuideCacheView& view) {
     if (const std::string fault = check_cell(view.cells[i], view.components); !fault.empty())
       return fmt::format("cell {}: {}", i, fault);
   if (const std::string fault = check(view.medium); !fault.empty()) return "media: " + fault;
+  if (const std::string fault = check_reaches(view); !fault.empty()) return fault;
   return check_escapes(view);
 }
 

@@ -38,6 +38,7 @@ struct GuideCacheView {
   std::span<const CacheNode> nodes;
   std::span<const CacheCell> cells;
   std::span<const GaussianComponent> components;
+  std::span<const CellReach> reaches;  // by cell, or empty
   std::span<const uint32_t> escape_bins;
   std::span<const float> escape_weights;
   MediumCacheView medium;
@@ -49,6 +50,7 @@ struct GuideCacheView {
   explicit GuideCacheView(const GuideCache& cache)
       : GuideCacheView(cache.scene_bounds, cache.nodes, cache.cells, cache.components) {
     quantity = cache.quantity;
+    reaches = cache.reaches;
     escape_bins = cache.escape_bins;
     escape_weights = cache.escape_weights;
     medium = MediumCacheView(cache.medium);
@@ -59,7 +61,9 @@ struct GuideCacheView {
   // cache knows too little: sample the BSDF there.
   const CacheCell* query(const Vec3& position, const Vec3& normal) const {
     if (nodes.empty()) return nullptr;
-    const CacheCell& cell = cells[find_leaf(nodes, position, normal)];
+    const uint32_t index = find_leaf(nodes, position, normal);
+    const CacheCell& cell = cells[index];
+    if (!reaches.empty() && !reaches[index].holds(position)) return nullptr;
     const bool known = cell.component_count > 0 && cell.effective_samples >= kMinEffectiveSamples &&
                        cell.normal.dot(normal) >= kMinNormalCosine;
     return known ? &cell : nullptr;

@@ -26,6 +26,10 @@ constexpr float kOwnAreaPhotons = 32;
 // Photons that tell on which side of a surface a new cell lies.
 constexpr float kOwnSidePhotons = 8;
 
+// Photons that tell how far a cell reaches, and how much further than their box that is.
+constexpr uint32_t kOwnExtentPhotons = 64;
+constexpr float kRoom = 1.25f;
+
 }  // namespace
 
 std::vector<GaussianComponent> GaussianLobes::fit(std::span<const WeightedPoint> batch, int count,
@@ -52,7 +56,11 @@ size_t GaussianLobes::grow(std::span<GaussianComponent> components,
 size_t TrainingCell::absorb(std::span<const Photon> block, std::span<const uint32_t> indices,
                             float emitted, const CellTrainingOptions& options) {
   MomentBatch moments(training_, block[indices.front()]);
-  for (uint32_t i : indices) moments.add(block[i], luminance(block[i].power) * emitted);
+  for (uint32_t i : indices) {
+    moments.add(block[i], luminance(block[i].power) * emitted);
+    own_.extend(block[i].position);
+  }
+  own_count_ += static_cast<uint32_t>(indices.size());
   moments.merge_into(training_);
   if (on_other_side()) forget();
   size_t capped = 0;
@@ -112,16 +120,35 @@ std::span<WeightedPoint> TrainingCell::batch_on_disk(Batch& batch) const {
   return std::span(batch).first(photons.size());
 }
 
-TrainingCell TrainingCell::child(const CellSplit& split, double now, double min_area,
+TrainingCell TrainingCell::child(const CellSplit& split, bool upper, double now, double min_area,
                                  const CellTrainingOptions& options) const {
   TrainingCell child;
   child.record_.normal = record_.normal;
   child.training_.born = now;
   child.training_.inherited_area = static_cast<float>(std::max(photon_area(training_), min_area));
+  child.inherited_ = extent();
   if (split.by_normal()) return child;
+  (upper ? child.inherited_.min : child.inherited_.max)[split.axis] = split.value;
   inherit_irradiance(child.training_, now, min_area);
   child.inherit_as_child(*this, options);
   return child;
+}
+
+Bounds TrainingCell::box(const CellReach& reach) {
+  const Vec3 half = Vec3::Constant(reach.radius);
+  return {reach.centre - half, reach.centre + half};
+}
+
+// The box of n photons lacks about 1 / n of what they are spread over.
+Bounds TrainingCell::extent() const {
+  if (own_count_ >= kOwnExtentPhotons) return own_;
+  return inherited_;
+}
+
+CellReach TrainingCell::reach() const {
+  const Bounds box = extent();
+  if (!box.min.allFinite() || !box.max.allFinite()) return {};
+  return {box.center(), kRoom * box.radius()};
 }
 
 void TrainingCell::inherit_mixture(const TrainingCell& from, float share) {

@@ -42,8 +42,8 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   // A cell of a finished training that goes on.
   TrainingCell(const CacheCell& cell, const CellTraining& training,
                std::span<const GaussianComponent> components,
-               std::span<const ComponentStatistics> statistics)
-      : OnlineMixture(cell, training, components, statistics) {}
+               std::span<const ComponentStatistics> statistics, const CellReach& reach)
+      : OnlineMixture(cell, training, components, statistics), inherited_(box(reach)) {}
 
   // The photons of this cell in one block: block[indices[i]] in that order. Returns how many
   // weighed too much.
@@ -56,8 +56,9 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   // The cell as one of the two children of its split. Across a position split the lobes, and half
   // of their evidence, are inherited: the light is nearly the same, and new photons soon outweigh
   // the old. Across a split of the normal nothing is: the lobes stand over another hemisphere.
-  // now: photons of the whole training so far; min_area: see irradiance().
-  TrainingCell child(const CellSplit& split, double now, double min_area,
+  // upper: the one of larger values. now: photons of the whole training so far; min_area: see
+  // irradiance().
+  TrainingCell child(const CellSplit& split, bool upper, double now, double min_area,
                      const CellTrainingOptions& options) const;
 
   // Takes over the mixture of a cell nearby, as a child does that of its parent; `share` of its
@@ -69,6 +70,8 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   float irradiance(double now, double min_area) const;
 
   const Vec3& centre() const { return training_.position_mean; }
+  // Of its own photons once there are enough, and of those of the cells that it was made from.
+  CellReach reach() const;
   // When the cell was made, in photons of the whole training.
   double born() const { return training_.born; }
   void restate_birth(double born) { training_.born = born; }
@@ -85,6 +88,12 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   void turn_to_photons();
   void inherit_irradiance(CellTraining& child, double now, double min_area) const;
   std::span<WeightedPoint> batch_on_disk(Batch& batch) const;
+  static Bounds box(const CellReach& reach);
+  Bounds extent() const;
+
+  Bounds own_;  // of the photons since the cell was made, in this training
+  Bounds inherited_ = {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
+  uint32_t own_count_ = 0;
 };
 
 }  // namespace waylight

@@ -31,7 +31,8 @@ std::deque<TrainingCell> cells_of(const GuideCache& previous) {
     cells.emplace_back(
         cell, previous.training[i],
         std::span(previous.components).subspan(cell.first_component, cell.component_count),
-        std::span(previous.statistics).subspan(cell.first_component, cell.component_count));
+        std::span(previous.statistics).subspan(cell.first_component, cell.component_count),
+        previous.reaches.empty() ? CellReach() : previous.reaches[i]);
   }
   return cells;
 }
@@ -51,8 +52,8 @@ void TrainingTree::split_full_cells(const TreeOptions& tree, const CellTrainingO
                    ? choose_split(cell.training(), tree.normal_spread, tree.min_extent)
                    : std::nullopt;
       },
-      [&](const TrainingCell& cell, const CellSplit& split, bool) {
-        return cell.child(split, now, sqr(tree.min_extent), options);
+      [&](const TrainingCell& cell, const CellSplit& split, bool upper) {
+        return cell.child(split, upper, now, sqr(tree.min_extent), options);
       });
 }
 
@@ -69,6 +70,7 @@ void TrainingTree::store(GuideCache& cache, const TreeOptions& tree,
                          double irradiance_scale) const {
   cache.nodes = nodes();
   cache.cells.clear();
+  cache.reaches.clear();
   cache.training.clear();
   cache.components.clear();
   cache.statistics.clear();
@@ -79,6 +81,7 @@ void TrainingTree::store(GuideCache& cache, const TreeOptions& tree,
         static_cast<float>(trained.irradiance(now, sqr(tree.min_extent)) * irradiance_scale);
     cell.first_component = static_cast<uint32_t>(cache.components.size());
     cache.cells.push_back(cell);
+    cache.reaches.push_back(trained.reach());
     cache.training.push_back(trained.training());
     cache.components.insert(cache.components.end(), trained.components().begin(),
                             trained.components().end());

@@ -23,6 +23,16 @@ struct CacheCell {
   uint32_t component_count = 0;
 };
 
+// Where the photons of a cell came from, with some room: beyond, in a part of its leaf that no
+// photon reached, it says nothing. A cell ends else only where another one begins: the dark side of
+// a wall would be guided by what was learned on the lit one.
+struct CellReach {
+  Vec3 centre = Vec3::Zero();
+  float radius = kInfinity;
+
+  bool holds(const Vec3& p) const { return (p - centre).squaredNorm() <= radius * radius; }
+};
+
 // The decayed sufficient statistics of one component, kept so that training can go on: s0 its share
 // of the weight (they sum to 1 over a mixture), s1 = s0 mean, s2 the second moments about the mean,
 // times s0. Moments about the origin would cancel in float for lobes narrower than a degree.
@@ -60,6 +70,7 @@ struct GuideCache {
   uint64_t photons = 0;  // photons in these streams, refused ones included
   std::vector<CacheNode> nodes;
   std::vector<CacheCell> cells;
+  std::vector<CellReach> reaches;  // by cell; empty: all have any
   std::vector<GaussianComponent> components;
   std::vector<ComponentStatistics> statistics;  // parallel to components, or empty
   std::vector<CellTraining> training;           // parallel to cells, or empty

@@ -262,6 +262,19 @@ TEST_F(RoundTrip, StreamOfRadianceHasNoEscapes) {
   EXPECT_THROW(writer.write(escapes), Error);
 }
 
+TEST_F(RoundTrip, ReachesOfCells) {
+  CacheFile out = small_cache();
+  out.cache.reaches.assign(out.cache.cells.size(), {Vec3(1, 2, 3), 4});
+  write_cache(path("a.cache"), out);
+  EXPECT_EQ(read_cache(path("a.cache")).cache.reaches[0].centre, Vec3(1, 2, 3));
+  EXPECT_EQ(MappedCache(path("a.cache")).view().reaches[0].radius, 4);
+
+  out.cache.reaches[0].radius = -1;
+  EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "a negative reach";
+  out.cache.reaches.push_back({});
+  EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "a reach without cell";
+}
+
 TEST_F(RoundTrip, CacheOfImportance) {
   CacheFile out = small_cache();
   out.cache.quantity = Quantity::importance;

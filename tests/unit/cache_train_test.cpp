@@ -383,6 +383,30 @@ TEST(CacheTrain, GuidesNothingOnTheUnlitSideOfAWall) {
   EXPECT_EQ(GuideCacheView(cache).query(Vec3::Zero(), -Vec3::UnitX()), nullptr);
 }
 
+// Half of the floor behind a door is in the scene's bounds, and in the leaf of the last cell.
+TEST(CacheTrain, GuidesNothingWhereNoPhotonCame) {
+  PhotonStreamInfo info = floor_info(4000);
+  info.scene_bounds.extend(Vec3(20 * kFloor, kFloor, 1));
+  CacheTrainOptions options;
+  options.photons_per_cell = 1'000'000;
+  const GuideCache cache = train(floor_photons(4000), info, options);
+  ASSERT_EQ(cache.cells.size(), 1u);
+  const GuideCacheView view(cache);
+  EXPECT_NE(view.query({0.5f * kFloor, 0, 0}, Vec3::UnitZ()), nullptr);
+  EXPECT_EQ(view.query({10 * kFloor, 0, 0}, Vec3::UnitZ()), nullptr);
+}
+
+TEST(CacheTrain, ReachesOfAFinishedTrainingGoOn) {
+  const auto photons = floor_photons(8000);
+  const GuideCache first = train(std::span(photons).first(4000), floor_info(4000));
+  const GuideCache second = train({}, floor_info(4000), {}, nullptr, first);
+  ASSERT_EQ(first.reaches.size(), second.reaches.size());
+  for (size_t i = 0; i < first.reaches.size(); ++i) {
+    EXPECT_LT(first.reaches[i].radius, 4 * kFloor);
+    EXPECT_GE(second.reaches[i].radius, first.reaches[i].radius);
+  }
+}
+
 TEST(CacheTrain, FramesFollowACurvedSurface) {
   std::vector<Photon> photons;
   for (uint32_t i = 0; i < 200'000; ++i) {
