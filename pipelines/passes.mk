@@ -1,7 +1,21 @@
 # Rules of the training: photons, and the cache trained on them, $(OUT)/scene.cache. Included by
 # rules.mk, which lists the variables. `training` is the stages whose time is that of the training.
 
-ifeq ($(PASSES),0)
+ifeq ($(PHOTONS),auto)
+$(if $(filter-out 0,$(PASSES)),$(error PHOTONS=auto decides on the passes itself: leave PASSES at 0))
+$(eval $(call stamp,train-until,$(TRAIN_FOR) $(SIZE)))
+$(OUT)/scene.cache $(OUT)/photon-trace.json $(OUT)/cache-train.json &: $(SCENE) $(SCENE_INPUTS) \
+    $(foreach s,photon-trace cache-train passes train-until,$(OUT)/.options/$(s)) \
+    $(foreach t,photon-trace cache-train render image-compare,$(BIN)/$(t))
+	BIN='$(BIN)' SIZE='$(SIZE)' SEED='$(SEED)' QUIET='$(QUIET)' \
+	  PHOTON_TRACE_FLAGS='$(PHOTON_TRACE_FLAGS)' CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS)' \
+	  $(ROOT)/train-until.sh $(OUT) $(TRAIN_FOR) $(SCENE) $(SCENE_FLAGS)
+
+training := photon-trace cache-train
+
+$(OUT)/passes.svg:
+	@echo "passes-chart needs PASSES=N, at least 1" >&2; exit 2
+else ifeq ($(PASSES),0)
 $(OUT)/scene.photons $(OUT)/photon-trace.json &: $(SCENE) $(SCENE_INPUTS) \
     $(OUT)/.options/photon-trace $(BIN)/photon-trace
 	$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $(OUT)/scene.photons \

@@ -23,7 +23,9 @@
 # SIZE             image size
 # SEED             of everything random
 # SEEDS            seeds of the renders, for charts with a band                $(SEED)
-# PHOTONS          particles to emit in one pass
+# PHOTONS          particles to emit in one pass; auto: passes of more and more, until another would
+#                  not pay for itself in a render of TRAIN_FOR seconds (train-until.sh)
+# TRAIN_FOR        the longest of TIMES
 # PASSES           passes in which importons train an importance cache and photons guided by it the
 #                  radiance cache, each going on from the pass before; 0: photons unguided, once
 # IMPORTONS        importons of one pass
@@ -53,6 +55,7 @@ PASSES ?= 0
 IMPORTONS ?= 250000
 PASSES_SPP ?= 32
 TIMES ?= 2 4 8 16
+TRAIN_FOR ?= $(shell printf '%g\n' $(TIMES) | sort -g | tail -n 1)
 METHODS ?= bsdf illumination product
 REFERENCE_SPP ?= 4096
 REFERENCE_MODE ?= product
@@ -61,10 +64,11 @@ REFERENCE ?= $(OUT)/reference.exr
 SCENE_INPUTS ?=
 QUIET ?=
 
-.PHONY: all cache images chart charts report passes-chart reference clean FORCE
-all: chart
+.PHONY: all cache images chart charts report summary passes-chart reference clean FORCE
+all: chart summary
 chart: $(OUT)/$(NAME).svg
 report: $(OUT)/report.html
+summary: $(OUT)/summary.txt
 passes-chart: $(OUT)/passes.svg
 reference: $(OUT)/reference.exr
 
@@ -161,6 +165,10 @@ images: $(renders:=.exr) $(renders:=.json)
 
 $(OUT)/$(NAME).csv: $(figures) $(OUT)/.options/chart
 	@awk 'FNR > 1 || NR == 1' $(figures) > $@.tmp && mv $@.tmp $@
+
+# What was modelled, what it cost, and what it bought.
+$(OUT)/summary.txt: $(OUT)/$(NAME).csv
+	@$(ROOT)/tables/summary.sh $(OUT) $< > $@.tmp && mv $@.tmp $@ && cat $@
 
 $(OUT)/$(NAME).svg: $(OUT)/$(NAME).csv $(BIN)/chart
 	$(LAUNCH) $(BIN)/chart $< -o $@ --title "$(NAME)" $(QUIET)
