@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "libguide/render_plan.h"
 #include "libguide/transport/choice_pilot.h"
@@ -14,24 +15,30 @@ constexpr double kPilotShare = 1 / 32.0;  // of the render's paths or time
 constexpr double kLearningShare = 0.4;    // of that, for the choices of the cells
 constexpr uint64_t kMaxPaths = 1 << 20;
 constexpr double kLeastGain = 0.01;
-constexpr double kCertainty = 2;  // standard errors that a gain has to be worth
+// Standard errors that a gain has to be worth: of a change, and of guiding nothing.
+constexpr double kCertainty = 3, kPlainCertainty = 2;
 
-// A change to what guides everything.
+enum class Decision { surfaces, directions, distances };
+
+// A change to what guides everything; no more than one is made of each decision.
 struct Alternative {
   const char* name;
+  Decision of;
   void (*apply)(PathTracerOptions&);
 };
 
-constexpr Alternative kResampling = {"ris", [](PathTracerOptions& o) {
+constexpr Alternative kResampling = {"ris", Decision::surfaces, [](PathTracerOptions& o) {
                                        o.directions.guide = DirectionGuide::resampled;
                                        o.directions.bsdf_share = default_share(RenderMode::ris);
                                        o.directions.learned = false;
                                      }};
-constexpr Alternative kPhase = {"phase function",
+constexpr Alternative kLight = {"without product", Decision::surfaces,
+                                [](PathTracerOptions& o) { o.directions.light_alone = true; }};
+constexpr Alternative kPhase = {"phase function", Decision::directions,
                                 [](PathTracerOptions& o) { o.phases.guide = PhaseGuide::none; }};
-constexpr Alternative kDistance = {"standard distances",
+constexpr Alternative kDistance = {"standard distances", Decision::distances,
                                    [](PathTracerOptions& o) { o.flight = FlightMethod::standard; }};
-constexpr Alternative kGrids = {"guided distances in grids",
+constexpr Alternative kGrids = {"guided distances in grids", Decision::distances,
                                 [](PathTracerOptions& o) { o.flights.guides_grids = true; }};
 
 bool has_media(const Scene& scene, bool homogeneous) {
@@ -45,6 +52,7 @@ std::vector<Alternative> alternatives(const Scene& scene, const GuidingCaches& c
                                       const RenderOptions& options) {
   std::vector<Alternative> open;
   if (caches.guided()) open.push_back(kResampling);
+  if (caches.guided() && caches.has_fits()) open.push_back(kLight);
   if (caches.media().empty()) return open;
   if (options.direction == PhaseMode::automatic) open.push_back(kPhase);
   if (options.distance != DistanceMode::automatic) return open;
@@ -126,27 +134,46 @@ void count_cells(const std::vector<CellChoice>& choices, AutoDecision* decision)
   }
 }
 
-// arms: everything guided, nothing, and the changes in the order of `open`. A gain is the logarithm
-// of a ratio of variance times cost.
-PathTracerOptions decide(const std::vector<PilotArm>& arms, const std::vector<Alternative>& open,
-                         AutoDecision* decision) {
-  const auto gain = [&](size_t i) {
-    return std::log(arms[0].figures.inefficiency() / arms[i].figures.inefficiency());
-  };
-  PathTracerOptions chosen = arms[0].options;
-  decision->method = arms[0].figures.name;
-  double best = 0;
-  for (size_t i = 0; i < open.size(); ++i) {
-    const double g = gain(i + 2);
-    if (!(g > std::max(kCertainty * arms[i + 2].figures.uncertainty, kLeastGain))) continue;
-    open[i].apply(chosen);
-    decision->method += std::string(", ") + open[i].name;
-    best = std::max(best, g);
+// What was measured: everything guided, nothing, and the changes in their order.
+class Verdict {
+ public:
+  Verdict(const std::vector<PilotArm>& arms, const std::vector<Alternative>& open)
+      : arms_(arms), open_(open) {}
+
+  PathTracerOptions decide(AutoDecision* decision) const {
+    PathTracerOptions chosen = arms_[0].options;
+    decision->method = arms_[0].figures.name;
+    double best = 0;
+    for (const Decision of : {Decision::surfaces, Decision::directions, Decision::distances}) {
+      const std::optional<size_t> change = best_change(of);
+      if (!change) continue;
+      open_[*change].apply(chosen);
+      decision->method += std::string(", ") + open_[*change].name;
+      best = std::max(best, gain(*change + 2));
+    }
+    if (!(gain(1) > std::max(best, kPlainCertainty * arms_[1].figures.uncertainty))) return chosen;
+    decision->method = arms_[1].figures.name;
+    return arms_[1].options;
   }
-  if (!(gain(1) > std::max(best, arms[1].figures.uncertainty))) return chosen;
-  decision->method = arms[1].figures.name;
-  return arms[1].options;
-}
+
+ private:
+  // The logarithm of a ratio of variance times cost.
+  double gain(size_t arm) const {
+    return std::log(arms_[0].figures.inefficiency() / arms_[arm].figures.inefficiency());
+  }
+  std::optional<size_t> best_change(Decision of) const {
+    std::optional<size_t> best;
+    for (size_t i = 0; i < open_.size(); ++i) {
+      const double least = std::max(kCertainty * arms_[i + 2].figures.uncertainty, kLeastGain);
+      if (open_[i].of != of || !(gain(i + 2) > least)) continue;
+      if (!best || gain(i + 2) > gain(*best + 2)) best = i;
+    }
+    return best;
+  }
+
+  const std::vector<PilotArm>& arms_;
+  const std::vector<Alternative>& open_;
+};
 
 }  // namespace
 
@@ -172,7 +199,7 @@ PathTracerOptions choose_method(const Scene& scene, const SensorDescription& sen
   decision->seconds = pilot.seconds();
   if (!measured) return everything;
   for (const PilotArm& arm : arms) decision->compared.push_back(arm.figures);
-  return decide(arms, open, decision);
+  return Verdict(arms, open).decide(decision);
 }
 
 }  // namespace waylight

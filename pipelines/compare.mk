@@ -4,8 +4,9 @@
 #   make -f pipelines/compare.mk SCENES=gap-room TIMES='1 2' SEEDS='1 2'      a part of it
 #
 # An interrupted run goes on where it stopped; results are in out/compare: report.html, compare.csv,
-# reach.csv (the time to reach the error that the first method has at its end), and one folder a
-# scene with its images, charts and reference. All of it takes SCENES x METHODS x SEEDS x the longest
+# reach.csv (the time to reach the error that the first method has at its end), auto.md (mode auto
+# against the first method and the best), and one folder a scene with its images, charts and
+# reference. All of it takes SCENES x METHODS x SEEDS x the longest
 # of TIMES, 3 hours by default, and the references.
 #
 # SCENES           pipelines of this folder; those of scenes made elsewhere need WAYLIGHT_SCENES
@@ -47,7 +48,7 @@ scene_make = $(MAKE) --no-print-directory -f $(ROOT)/$(1).mk OUT=$(OUT)/$(1) BIN
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
 .PHONY: all $(SCENES)
-all: $(OUT)/compare.csv $(OUT)/report.html
+all: $(OUT)/compare.csv $(OUT)/report.html $(OUT)/auto.md
 
 $(SCENES):
 	+$(call scene_make,$@) charts
@@ -57,6 +58,9 @@ $(tables): $(SCENES)
 
 $(OUT)/compare.csv: $(tables)
 	@awk 'FNR > 1 || NR == 1' $^ > $@.tmp && mv $@.tmp $@
+
+$(OUT)/auto.md: $(tables)
+	@awk -f $(ROOT)/tables/figures.awk -f $(ROOT)/tables/auto.awk $^ > $@.tmp && mv $@.tmp $@ && cat $@
 
 $(OUT)/report.html $(OUT)/reach.csv &: $(tables) $(BIN)/report
 	$(LAUNCH) $(BIN)/report $(tables) -o $(OUT)/report.html --csv $(OUT)/reach.csv $(REPORT_FLAGS) \

@@ -6,8 +6,9 @@
 namespace waylight {
 namespace {
 
-// Of a vertex over one left to the BSDF, in rays of the path loop, shading included (0.7 us).
-constexpr double kPriceOfLight = 0.2, kPriceOfProduct = 0.45;
+// Of a vertex over one left to the BSDF, next-event estimation included, in rays of the path loop
+// with their shading (0.7 us).
+constexpr double kPriceOfLight = 0.3, kPriceOfProduct = 0.7;
 
 }  // namespace
 

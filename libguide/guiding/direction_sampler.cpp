@@ -68,6 +68,8 @@ const CacheCell* DirectionSampler::choose(const GuidingCaches& caches, const Cac
   if (!cell || !options_.learned) return cell;
   const CellChoice choice = caches.choice(*cell, {options_.guide, options_.bsdf_share});
   options_.guide = choice.guide;
+  if (options_.light_alone && choice.guide == DirectionGuide::product)
+    options_.guide = DirectionGuide::illumination;
   options_.bsdf_share = choice.bsdf_share;
   return choice.guide == DirectionGuide::none ? nullptr : cell;
 }

@@ -14,8 +14,9 @@ struct DirectionOptions {
   DirectionGuide guide = DirectionGuide::none;
   float bsdf_share = 0.5f;  // of smooth scattering where there is a guide, in (0, 1]
   int candidates = 2;       // of `resampled`, in [1, 64]
-  bool learned = false;   // guide and share of a cell are those learned for it, where there are any
-  bool compares = false;  // samples tell light_pdf
+  bool learned = false;  // guide and share of a cell are those learned for it, where there are any
+  bool light_alone = false;  // no product, whatever was learned
+  bool compares = false;     // samples tell light_pdf
 };
 
 struct DirectionSample {

@@ -79,24 +79,33 @@ double scale_of(const std::vector<TileSums>& arms) {
   return relative_scale(means[means.size() / 2]);
 }
 
-// What an arm missed of the light that another one found. Paths that are found once in N carry N
+// What an arm missed of the light that the first one found. Paths that are found once in N carry N
 // times their part of the mean each, so their second moment is at least N times its square, also
-// while none has been found. The other's own noise is taken off.
+// while none has been found. The first arm's own noise is taken off.
 class Missed {
  public:
-  // difference: of the means, this arm's minus the other's.
-  void add(double difference, double paths, double variance_of_other) {
-    if (difference < 0) sum_ += paths * difference * difference - variance_of_other;
+  // difference: of the means, this arm's minus the first's.
+  void add(double difference, double paths, double variance_of_first) {
+    const double told = difference < 0 ? paths * sqr(difference) - variance_of_first : 0;
+    sum_ += told;
+    squares_ += told * told;
     ++count_;
   }
-  double variance() const { return sum_ / count_; }
+  // As far as it is more than chance: two standard errors less.
+  double variance() const {
+    const double mean = sum_ / count_, spread = squares_ / count_ - mean * mean;
+    return mean - 2 * std::sqrt(std::max(spread, 0.0) / count_);
+  }
 
  private:
-  double sum_ = 0, count_ = 0;
+  static double sqr(double v) { return v * v; }
+
+  double sum_ = 0, squares_ = 0, count_ = 0;
 };
 
-// Relative variances and costs by tile, and what is missed by tile and by turn. All arms are held
-// against the first, and the first against the second.
+// Relative variances and costs by tile, and what is missed by tile and by turn. The first arm is
+// not held against others: it has everything guided, and a share of all it does is what they do, so
+// what it finds rarely they find hardly more often.
 class ArmFigures {
  public:
   explicit ArmFigures(size_t arms) : arms_(arms), turn_(arms) {}
@@ -138,19 +147,14 @@ class ArmFigures {
     for (const double v : values) sum += v;
     return sum / double(values.size());
   }
-  // No tile may have more than a 50th of the variance of all, or twice the mean where there are
-  // few: a single bright path would decide, and by chance.
+  // No tile counts for more than a 20th of the variance of its arm, or twice the mean where there
+  // are few: a single bright path would decide, and by chance. Many still count for what they are.
   void hold_variances() {
-    const double tiles = double(arms_[0].variances.size());
-    double most = kInfinity;
-    for (int i = 0; i < 16; ++i) {
-      double sum = 0;
-      for (const Arm& arm : arms_)
-        for (const double v : arm.variances) sum += std::min(v, most);
-      most = sum / double(arms_.size()) * std::max(0.02, 2 / tiles);
-    }
-    for (Arm& arm : arms_)
+    for (Arm& arm : arms_) {
+      const double tiles = double(arm.variances.size());
+      const double most = mean(arm.variances) * std::max(0.05 * tiles, 2.0);
       for (double& v : arm.variances) v = std::min(v, most);
+    }
   }
   // Mean of the places, relative to their value, and variance of a path.
   struct Unit {
@@ -162,14 +166,13 @@ class ArmFigures {
   };
 
   void compare(const std::vector<Unit>& units, double paths, Missed Arm::*missed) {
-    for (size_t i = 0; i < units.size(); ++i) {
-      const Unit& other = units[i == 0 && units.size() > 1 ? 1 : 0];
-      (arms_[i].*missed).add(units[i].mean - other.mean, paths, other.variance);
-    }
+    for (size_t i = 1; i < units.size(); ++i)
+      (arms_[i].*missed).add(units[i].mean - units[0].mean, paths, units[0].variance);
   }
   double variance(size_t i) const {
-    return std::max({mean(arms_[i].variances), arms_[i].missed_by_tile.variance(),
-                     arms_[i].missed_by_turn.variance()});
+    const double own = mean(arms_[i].variances);
+    if (i == 0) return own;
+    return std::max({own, arms_[i].missed_by_tile.variance(), arms_[i].missed_by_turn.variance()});
   }
   double uncertainty(size_t i) const {
     const Arm &arm = arms_[i], &first = arms_[0];
