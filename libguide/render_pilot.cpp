@@ -18,7 +18,7 @@ constexpr double kLeastGain = 0.01;
 // Standard errors that a gain has to be worth: of a change, and of guiding nothing.
 constexpr double kCertainty = 3, kPlainCertainty = 2;
 
-enum class Decision { surfaces, directions, distances };
+enum class Decision { surfaces, directions, distances, roulette };
 
 // A change to what guides everything; no more than one is made of each decision.
 struct Alternative {
@@ -41,6 +41,12 @@ constexpr Alternative kDistance = {"standard distances", Decision::distances,
 constexpr Alternative kGrids = {"guided distances in grids", Decision::distances,
                                 [](PathTracerOptions& o) { o.flights.guides_grids = true; }};
 
+constexpr Alternative kRoulette = {"roulette by throughput", Decision::roulette,
+                                   [](PathTracerOptions& o) {
+                                     o.roulette = Roulette::throughput;
+                                     o.max_split = 1;
+                                   }};
+
 bool has_media(const Scene& scene, bool homogeneous) {
   for (int i = 0; i < static_cast<int>(scene.description().media.size()); ++i)
     if (scene.medium(i).homogeneous() == homogeneous) return true;
@@ -53,6 +59,7 @@ std::vector<Alternative> alternatives(const Scene& scene, const GuidingCaches& c
   std::vector<Alternative> open;
   if (caches.guided()) open.push_back(kResampling);
   if (caches.guided() && caches.has_fits()) open.push_back(kLight);
+  if (options.roulette == RouletteMode::automatic) open.push_back(kRoulette);
   if (caches.media().empty()) return open;
   if (options.direction == PhaseMode::automatic) open.push_back(kPhase);
   if (options.distance != DistanceMode::automatic) return open;
@@ -71,10 +78,7 @@ PathTracerOptions plain(const RenderOptions& options, PathTracerOptions tracing)
   tracing.directions = {};
   if (options.direction == PhaseMode::automatic) kPhase.apply(tracing);
   if (options.distance == DistanceMode::automatic) kDistance.apply(tracing);
-  if (options.roulette == RouletteMode::automatic) {
-    tracing.roulette = Roulette::throughput;
-    tracing.max_split = 1;
-  }
+  if (options.roulette == RouletteMode::automatic) kRoulette.apply(tracing);
   return tracing;
 }
 
@@ -144,7 +148,8 @@ class Verdict {
     PathTracerOptions chosen = arms_[0].options;
     decision->method = arms_[0].figures.name;
     double best = 0;
-    for (const Decision of : {Decision::surfaces, Decision::directions, Decision::distances}) {
+    for (const Decision of :
+         {Decision::surfaces, Decision::directions, Decision::distances, Decision::roulette}) {
       const std::optional<size_t> change = best_change(of);
       if (!change) continue;
       open_[*change].apply(chosen);
