@@ -15,8 +15,11 @@ constexpr double kPilotShare = 1 / 32.0;  // of the render's paths or time
 constexpr double kLearningShare = 0.4;    // of that, for the choices of the cells
 constexpr uint64_t kMaxPaths = 1 << 20;
 constexpr double kLeastGain = 0.01;
-// Standard errors that a gain has to be worth: of a change, and of guiding nothing.
-constexpr double kCertainty = 3, kPlainCertainty = 2;
+// Standard errors that a gain has to be worth: of a change, and of guiding nothing. The latter,
+// less a margin: where the comparison is sure to a tenth no rare paths hide, and guiding that does
+// not pay is switched off; where it is not, switching off what does pay may cost ten times the
+// error.
+constexpr double kCertainty = 3, kPlainCertainty = 2, kPlainMargin = 0.1;
 
 enum class Decision { surfaces, directions, distances, roulette };
 
@@ -156,7 +159,8 @@ class Verdict {
       decision->method += std::string(", ") + open_[*change].name;
       best = std::max(best, gain(*change + 2));
     }
-    if (!(gain(1) > std::max(best, kPlainCertainty * arms_[1].figures.uncertainty))) return chosen;
+    const double doubt = kPlainCertainty * (arms_[1].figures.uncertainty - kPlainMargin);
+    if (!(gain(1) > std::max(best, doubt))) return chosen;
     decision->method = arms_[1].figures.name;
     return arms_[1].options;
   }
