@@ -63,7 +63,8 @@ struct RenderOptions {
   float distance_bias = 0.5f;  // of distance `exponential`: factor of the extinction, (0, 10]
   PhaseMode direction = PhaseMode::automatic;
   RouletteMode roulette = RouletteMode::automatic;
-  int split = 1;  // copies that guided roulette may make of a path at one vertex, 1 .. 20
+  float weight_window = 5;  // of guided roulette, ratio of its ends (weight_window.h), 1 .. 1000
+  int split = 1;            // copies that guided roulette may make of a path at one vertex, 1 .. 20
   PixelEstimateMode pixel_estimate = PixelEstimateMode::cache;
   bool segments = false;  // sum contributions by the number of edges
   ShareRule share_rule = ShareRule::automatic;

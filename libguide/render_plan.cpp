@@ -116,6 +116,8 @@ void RenderOptions::validate() const {
   require(rr_depth >= -1, "--rr-depth must not be negative");
   require(distance_bias > 0 && distance_bias <= 10, "--distance-bias must be in (0, 10], not {}",
           distance_bias);
+  require(weight_window >= 1 && weight_window <= WeightWindow::kMaxRatio,
+          "--weight-window must be in [1, {}], not {}", WeightWindow::kMaxRatio, weight_window);
   require(split >= 1 && split <= kMaxSplit, "--split must be in [1, {}], not {}", kMaxSplit, split);
   require(split == 1 || roulette_of(*this) == Roulette::guided,
           "--split needs guided roulette: --rr guided, or a mode other than bsdf");
@@ -157,6 +159,7 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
   result.flights.bias = options.distance_bias;
   result.flights.guides_grids = options.distance == DistanceMode::guided;
   result.roulette = roulette_of(options);
+  result.window = WeightWindow(options.weight_window);
   result.max_split = options.split;
   result.max_depth = options.max_depth == -2 ? defaults.max_depth : options.max_depth;
   result.rr_depth = options.rr_depth == -1 ? defaults.rr_depth : options.rr_depth;

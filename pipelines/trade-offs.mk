@@ -18,6 +18,8 @@ MEDIUM_CELLS_TRIED ?= $(CELLS_TRIED)
 LOBES_TRIED ?= 1 2 4 8
 REDUCTIONS_TRIED ?= 0 1 5 10 20 50 90
 SPLITS_TRIED ?= 1 2 4 8 16
+WINDOWS_TRIED ?= 1 2 5 10 20 100
+TOLERANCES_TRIED ?= 0 0.01 0.02 0.05 0.1 0.2 0.5
 FITS_TRIED ?= 1 2 4 8 16
 split_setting ?= RENDER_FLAGS='$(RENDER_FLAGS) --split %'
 
@@ -54,7 +56,11 @@ $(eval $(call trade_off,lobes,$(LOBES_TRIED),\
   CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --components %',--preprocess))
 $(eval $(call trade_off,reduction,$(REDUCTIONS_TRIED),\
   CACHE_REDUCE_FLAGS='$(CACHE_REDUCE_FLAGS) --max-cost %',--preprocess))
+$(eval $(call trade_off,tolerance,$(TOLERANCES_TRIED),\
+  BRDF_FIT_FLAGS='$(BRDF_FIT_FLAGS) --tolerance %',--preprocess))
 $(eval $(call trade_off,split,$(SPLITS_TRIED),$(split_setting),))
+$(eval $(call trade_off,window,$(WINDOWS_TRIED),\
+  RENDER_FLAGS='$(RENDER_FLAGS) --weight-window %',))
 
 # One point: renders of equal samples.
 $(OUT)/point-%.exr $(OUT)/point-%.json &: $(caches_$(study_needs)) $(OUT)/.options/study \

@@ -2,7 +2,6 @@
 
 #include "libguide/transport/path_state.h"
 #include "libguide/transport/split_sampler.h"
-#include "libguide/transport/weight_window.h"
 
 namespace waylight {
 namespace {
@@ -189,8 +188,8 @@ int PathTracer::choose_copies(Walk& walk, State& state, const Directions& direct
   const float q = expected / walk.pixel_estimate;
   state.has_estimate = walk.record.copies < kMaxCopies && state.edges < kLongPath;
   const int room = walk.room(options_.max_split);
-  if (!WeightWindow::leaves(q, room)) return 1;
-  const Population population = WeightWindow::decide(q, room, state.sampler.next());
+  if (!options_.window.leaves(q, room)) return 1;
+  const Population population = options_.window.decide(q, room, state.sampler.next());
   state.weigh(Color::Constant(population.weight));
   return population.copies;
 }

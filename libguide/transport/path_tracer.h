@@ -9,6 +9,7 @@
 #include "libguide/scene/scene.h"
 #include "libguide/transport/path_vertex.h"
 #include "libguide/transport/segment_sums.h"
+#include "libguide/transport/weight_window.h"
 
 namespace waylight {
 
@@ -30,6 +31,7 @@ struct PathTracerOptions {
   FlightMethod flight = FlightMethod::standard;  // also where those that need guides have none
   FlightOptions flights;
   Roulette roulette = Roulette::throughput;
+  WeightWindow window;         // of guided roulette
   int max_split = 1;           // copies at one vertex under guided roulette, 1 .. kMaxSplit
   int max_depth = -1;          // path edges; -1 no limit
   int rr_depth = 5;            // path edges before Russian roulette

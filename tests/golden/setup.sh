@@ -52,3 +52,11 @@ printf 'f %s\n' '1 2 3' '1 3 4' >> screen.obj
   echo box,product,2,1,0.5,8,125,3,50000000,0.6,0.5,guided.exr,guided.exr,guided.json
   echo box,product,2,2,0.5,16,125,3,50000000,0.15,0.1,guided.exr,guided.exr,guided.json
 } > report.csv
+
+# A table of pipelines/stability.mk: a case that all pass, and one with a known failure.
+{
+  echo case,row,set,method,status,verdict,reason
+  echo open,F1,surfaces,bsdf,pass,pass,
+  echo open,F1,surfaces,product,pass,pass,
+  echo 'slit,F3,surfaces,product,known,"cost 1.3","thin, <and> narrow"'
+} > stability.csv

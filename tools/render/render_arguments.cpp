@@ -83,6 +83,8 @@ void add_roulette(CLI::App& app, RenderOptions& options) {
       app, "--rr", kRoulettes,
       [&options](size_t i) { options.roulette = static_cast<RouletteMode>(i); },
       "Russian roulette; auto: guided where there is a cache");
+  app.add_option("--weight-window", options.weight_window,
+                 "Of guided roulette: how many times its upper end is its lower, 1 to 1000");
   app.add_option("--split", options.split,
                  "Copies that guided roulette may make of a path at a vertex, 1 to 20; 1: none");
   // In the order of PixelEstimateMode.

@@ -118,6 +118,7 @@ std::string report_page(const std::vector<SceneRuns>& scenes, const ReportOption
                             {"summary", summary_tables(scenes)},
                             {"scenes", sections},
                             {"charts", more_charts(options.charts)},
+                            {"stability", stability_section(options.stability)},
                             {"command", escaped(run.command_line())},
                             {"js", kPageJs}});
 }

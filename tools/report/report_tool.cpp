@@ -64,6 +64,8 @@ void declare(CLI::App& app, ReportOptions& options) {
   as_output(app.add_option("--csv", options.csv, "Write the times to reach its error"), {".csv"});
   as_input(app.add_option("--chart", options.charts, "SVG to show at the end; repeatable"))
       ->allow_extra_args(false);
+  as_input(app.add_option("--stability", options.stability,
+                          "Table of pipelines/stability.mk to show at the end (.csv)"));
   app.add_option("--crop", options.crop, "Window to enlarge, in pixels")
       ->type_name("X,Y,W,H")
       ->delimiter(',')

@@ -14,6 +14,7 @@ struct ReportOptions {
   std::string base;                 // method to compare with; empty: the first of each scene
   std::string csv;                  // table of the times to reach, empty: none
   std::vector<std::string> charts;  // SVG files to show at the end
+  std::string stability;            // CSV of pipelines/stability.mk, empty: none
   std::vector<int> crop;            // x, y, width, height; empty: by the methods' errors
   int width = 480;                  // most pixels of a picture in a row, 64..4096
   float exposure = 0;               // stops
