@@ -21,6 +21,11 @@ constexpr double kLeastGain = 0.01;
 // error.
 constexpr double kCertainty = 3, kPlainCertainty = 2, kPlainMargin = 0.1;
 
+// Where fewer scatterings than this have a guide, nothing is guided unless that is surely worse:
+// what so few can gain has to pay the lookups of all others. Behind a closed door it is 4 %.
+constexpr double kRarelyGuided = 0.1;
+constexpr int kProbePaths = 128;
+
 enum class Decision { surfaces, directions, distances, roulette };
 
 // A change to what guides everything; no more than one is made of each decision.
@@ -95,6 +100,22 @@ class MethodChoice {
       max_paths_ = static_cast<uint64_t>(std::min(double(kMaxPaths), kPilotShare * paths));
   }
 
+  // Of smooth scatterings that have a guide, from a few paths all over the frame; 1 where these
+  // would be more than a pilot may take.
+  double guided_share(const PathTracerOptions& tracing) const {
+    if (max_paths_ < kProbePaths) return 1;
+    const PathTracer tracer = tracer_.with(tracing);
+    uint64_t scatterings = 0, guided = 0;
+    for (int i = 0; i < kProbePaths; ++i) {
+      const int place = static_cast<int>(int64_t{i} * frame_.places() / kProbePaths);
+      Sampler sampler = frame_.sampler(place, 0, 0);
+      const Ray ray = frame_.ray(place, 0, sampler);
+      const PathRecord path = tracer.trace(ray, sampler, {});
+      scatterings += path.scatterings, guided += path.guided;
+    }
+    return scatterings > 0 ? double(guided) / double(scatterings) : 1;
+  }
+
   std::vector<CellChoice> learn(PathTracerOptions tracing, const GuidingCaches& caches) const {
     ChoicePilotOptions pilot;
     pilot.guides = {DirectionGuide::illumination};
@@ -144,8 +165,8 @@ void count_cells(const std::vector<CellChoice>& choices, AutoDecision* decision)
 // What was measured: everything guided, nothing, and the changes in their order.
 class Verdict {
  public:
-  Verdict(const std::vector<PilotArm>& arms, const std::vector<Alternative>& open)
-      : arms_(arms), open_(open) {}
+  Verdict(const std::vector<PilotArm>& arms, const std::vector<Alternative>& open, bool rare)
+      : arms_(arms), open_(open), rare_(rare) {}
 
   PathTracerOptions decide(AutoDecision* decision) const {
     PathTracerOptions chosen = arms_[0].options;
@@ -159,8 +180,7 @@ class Verdict {
       decision->method += std::string(", ") + open_[*change].name;
       best = std::max(best, gain(*change + 2));
     }
-    const double doubt = kPlainCertainty * (arms_[1].figures.uncertainty - kPlainMargin);
-    if (!(gain(1) > std::max(best, doubt))) return chosen;
+    if (!(gain(1) > least_gain_of_plain(best))) return chosen;
     decision->method = arms_[1].figures.name;
     return arms_[1].options;
   }
@@ -169,6 +189,11 @@ class Verdict {
   // The logarithm of a ratio of variance times cost.
   double gain(size_t arm) const {
     return std::log(arms_[0].figures.inefficiency() / arms_[arm].figures.inefficiency());
+  }
+  double least_gain_of_plain(double best) const {
+    const double uncertainty = arms_[1].figures.uncertainty;
+    if (rare_) return best - kPlainCertainty * uncertainty;
+    return std::max(best, kPlainCertainty * (uncertainty - kPlainMargin));
   }
   std::optional<size_t> best_change(Decision of) const {
     std::optional<size_t> best;
@@ -182,6 +207,7 @@ class Verdict {
 
   const std::vector<PilotArm>& arms_;
   const std::vector<Alternative>& open_;
+  bool rare_;  // few scatterings have a guide
 };
 
 }  // namespace
@@ -194,6 +220,7 @@ PathTracerOptions choose_method(const Scene& scene, const SensorDescription& sen
   if (!guiding.guided() && guiding.media().empty()) return plain(options, everything);
   if (!guiding.has_fits()) everything.directions.guide = DirectionGuide::illumination;
   const MethodChoice pilot(options, sensor, tracer, stop);
+  const bool rare = guiding.media().empty() && pilot.guided_share(everything) < kRarelyGuided;
   std::vector<CellChoice> choices;
   if (guiding.guided()) choices = pilot.learn(everything, guiding);
   count_cells(choices, decision);
@@ -203,12 +230,13 @@ PathTracerOptions choose_method(const Scene& scene, const SensorDescription& sen
   const std::vector<Alternative> open = alternatives(scene, guiding, options);
   std::vector<PilotArm> arms = {{{"guided"}, everything}, {{"bsdf"}, plain(options, everything)}};
   for (const Alternative& change : open) arms.push_back(arm_of(change, everything));
-  decision->method = arms[0].figures.name;
+  const size_t otherwise = rare ? 1 : 0;
+  decision->method = arms[otherwise].figures.name;
   const bool measured = pilot.compare(arms);
   decision->seconds = pilot.seconds();
-  if (!measured) return everything;
+  if (!measured) return arms[otherwise].options;
   for (const PilotArm& arm : arms) decision->compared.push_back(arm.figures);
-  return Verdict(arms, open).decide(decision);
+  return Verdict(arms, open, rare).decide(decision);
 }
 
 }  // namespace waylight

@@ -15,7 +15,8 @@ namespace waylight {
 // and distances in media, guided distances in grids, roulette by throughput. What does by three
 // standard errors of the comparison is taken, the best of each decision, all together; at last
 // comes plain path tracing, if it is better than any of these, by two where the comparison is
-// vague. Only what the options leave open is asked. The choices of the cells are left in `guiding`.
+// vague, and wherever it is not surely worse if hardly a scattering has a guide. Only what the
+// options leave open is asked. The choices of the cells are left in `guiding`.
 PathTracerOptions choose_method(const Scene& scene, const SensorDescription& sensor,
                                 const PathTracer& tracer, GuidingCaches& guiding,
                                 const RenderOptions& options, const std::function<bool()>& stop,

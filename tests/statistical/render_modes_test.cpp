@@ -84,6 +84,19 @@ TEST_F(SlowRenderModes, ModeAutoHasTheMeanOfPathTracing) {
   EXPECT_GT(summary.guiding_share, 0.5) << summary.decision.method;  // it pays behind a gap
 }
 
+// The render is too small for more than a glance: with 16 samples the pilot cannot compare.
+TEST_F(SlowRenderModes, ModeAutoGuidesNothingWhereHardlyAScatteringHasAGuide) {
+  Trained starved = *trained;
+  for (size_t i = 0; i < starved.guide.cells.size(); ++i)
+    if (i % 32 != 0) starved.guide.cells[i].effective_samples = 0;
+  RenderSummary few, all;
+  render_mode(*scene, starved, RenderMode::automatic, 16, 5, &few);
+  render_mode(*scene, *trained, RenderMode::automatic, 16, 5, &all);
+  EXPECT_EQ(few.decision.method, "bsdf");
+  EXPECT_EQ(few.guiding_share, 0);
+  EXPECT_EQ(all.decision.method, "guided");
+}
+
 TEST_F(SlowRenderModes, ResamplingHasTheMeanOfPathTracingWithFewCandidatesAndMany) {
   for (const int candidates : {1, 2, 5}) {
     RenderOptions options;
