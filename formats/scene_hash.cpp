@@ -144,6 +144,12 @@ void add(ValueHash& hash, const HeterogeneousMedium& m) {
   hash.add_all(density, albedo, scale);
 }
 
+// Media without emission have the hashes that they had before there was any.
+void add(ValueHash& hash, const MediumEmission& emission) {
+  const auto& [radiance, scale] = emission;
+  if (emits(emission)) hash.add_all(radiance, scale);
+}
+
 void add(ValueHash&, const IsotropicPhase&) {}
 
 void add(ValueHash& hash, const HenyeyGreenstein& phase) {
@@ -199,6 +205,7 @@ uint64_t hash_media(const SceneDescription& scene, SharedHashes& shared) {
   for (const Medium& medium : scene.media) {
     add(hash, medium.coefficients);
     add(hash, medium.phase);
+    add(hash, medium.emission);
   }
   for (const auto* shapes : {&scene.shapes, &scene.group_shapes})
     for (const Shape& shape : *shapes) hash.add_all(shape.interior_medium, shape.exterior_medium);

@@ -137,6 +137,16 @@ using MediumImporter = std::variant<HomogeneousMedium, HeterogeneousMedium> (*)(
 const std::map<std::string, MediumImporter> kImporters = {{"homogeneous", import_homogeneous},
                                                           {"heterogeneous", import_heterogeneous}};
 
+// Whether the albedo is below one anywhere.
+bool absorbs(const Medium& medium) {
+  if (const auto* homogeneous = std::get_if<HomogeneousMedium>(&medium.coefficients))
+    return (homogeneous->albedo < 1).any();
+  const VolumeTexture& albedo = std::get<HeterogeneousMedium>(medium.coefficients).albedo;
+  if (const Color* color = std::get_if<Color>(&albedo)) return (*color < 1).any();
+  const std::vector<float>& values = std::get<std::shared_ptr<const VolumeGrid>>(albedo)->values;
+  return std::any_of(values.begin(), values.end(), [](float value) { return value < 1; });
+}
+
 Medium import_new(ImportContext& context, const Element& element) {
   if (element.tag != "medium") fail_at(element, "stands where a <medium> is needed");
   Properties properties(context.document, element);
@@ -145,7 +155,14 @@ Medium import_new(ImportContext& context, const Element& element) {
   medium.name = label_of(element);
   medium.coefficients = importer(context, properties);
   medium.phase = phase_property(context, properties);
+  const bool varies = std::holds_alternative<HeterogeneousMedium>(medium.coefficients);
+  medium.emission = emission_property(context, properties, varies);
   properties.finish();
+  if (emits(medium.emission) && !absorbs(medium))
+    context.warn(
+        fmt::format("{}: its albedo is 1, so it emits nothing: what a medium gives off is "
+                    "its absorption times its emission",
+                    element.where()));
   return medium;
 }
 

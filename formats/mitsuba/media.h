@@ -11,6 +11,10 @@ namespace waylight::mitsuba {
 VolumeTexture volume_property(ImportContext& context, Properties& properties,
                               const std::string& name, const Color& otherwise);
 
+// medium_emission.cpp: `emission`, a colour or a volume of radiance, times `emission_scale`, a
+// colour or a number. may_vary: whether a grid is allowed.
+MediumEmission emission_property(ImportContext& context, Properties& properties, bool may_vary);
+
 // medium_presets.cpp: scattering (reduced, for an isotropic phase) and absorption per mm.
 struct ScatteringPreset {
   Color sigma_s, sigma_a;

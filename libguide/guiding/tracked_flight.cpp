@@ -27,14 +27,6 @@ struct Reservoir {
   }
 };
 
-float rate_factor(const FlightSpace& space, float t_max) {
-  float depth = 0;
-  BlockWalk blocks = space.medium.walk(space.ray, t_max);
-  for (RayBlock block; depth < kMinCandidates && blocks.next(block);)
-    depth += block.most * block.length();
-  return depth > 0 ? std::max(1.0f, kMinCandidates / depth) : 1.0f;
-}
-
 class Sweep {
  public:
   Sweep(const FlightSpace& space, RandomStream& random)
@@ -44,8 +36,9 @@ class Sweep {
         cells_(space.guides.walk(space.ray, t_max_)) {}
 
   void run() {
-    tentative_collisions(space_.medium.walk(space_.ray, t_max_), rate_factor(space_, t_max_),
-                         random_.next(), random_, [&](float t, float rate) {
+    const BlockWalk blocks = space_.medium.walk(space_.ray, t_max_);
+    tentative_collisions(blocks, rate_factor(blocks, kMinCandidates), random_.next(), random_,
+                         [&](float t, float rate) {
                            consider(t, rate);
                            return goes_on();
                          });

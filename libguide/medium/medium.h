@@ -36,10 +36,21 @@ struct HeterogeneousMedium {
   float scale = 1;
 };
 
+// Le(x) = scale * radiance(x), W/(m^2 sr): what the medium adds to a ray per unit length is
+// sigma_a Le = (1 - albedo) sigma_t Le, so that Le is the radiance of a thick medium that does not
+// scatter, and of any that is in equilibrium with its surroundings [Fong et al. 2017, 2.2].
+struct MediumEmission {
+  VolumeTexture radiance = Color(Color::Zero());
+  Color scale = Color::Ones();
+};
+// Whether anything is emitted as far as Le tells; media of albedo one emit nothing all the same.
+bool emits(const MediumEmission& emission);
+
 struct Medium {
   std::string name;
   std::variant<HomogeneousMedium, HeterogeneousMedium> coefficients;
   PhaseFunction phase;
+  MediumEmission emission = {};
 };
 
 }  // namespace waylight

@@ -6,6 +6,8 @@
 namespace waylight {
 namespace {
 
+using Grid = std::shared_ptr<const VolumeGrid>;
+
 Color exponential(const Color& sigma_t, float distance) {
   return (-sigma_t * std::min(distance, kFar)).exp();
 }
@@ -38,21 +40,34 @@ MediumTracker::MediumTracker(const Medium& medium) : phase_(medium.phase) {
     sigma_t_ = homogeneous->sigma_t;
     albedo_ = homogeneous->albedo;
   } else {
-    const auto& m = std::get<HeterogeneousMedium>(medium.coefficients);
-    using Grid = std::shared_ptr<const VolumeGrid>;
-    scale_ = m.scale;
-    if (const Grid* grid = std::get_if<Grid>(&m.density)) {
-      density_grid_.emplace(*grid);
-      blocks_ = ExtinctionBlocks(**grid, scale_);
-    } else {
-      sigma_t_ = scale_ * std::get<Color>(m.density);
-    }
-    if (const Grid* grid = std::get_if<Grid>(&m.albedo))
-      albedo_grid_.emplace(*grid);
-    else
-      albedo_ = std::get<Color>(m.albedo);
+    prepare(std::get<HeterogeneousMedium>(medium.coefficients));
   }
   bounds_ = {sigma_t_.minCoeff(), sigma_t_.mean(), sigma_t_.maxCoeff()};
+  prepare(medium.emission);
+}
+
+void MediumTracker::prepare(const HeterogeneousMedium& medium) {
+  scale_ = medium.scale;
+  if (const Grid* grid = std::get_if<Grid>(&medium.density)) {
+    density_grid_.emplace(*grid);
+    blocks_ = ExtinctionBlocks(**grid, scale_);
+  } else {
+    sigma_t_ = scale_ * std::get<Color>(medium.density);
+  }
+  if (const Grid* grid = std::get_if<Grid>(&medium.albedo))
+    albedo_grid_.emplace(*grid);
+  else
+    albedo_ = std::get<Color>(medium.albedo);
+}
+
+void MediumTracker::prepare(const MediumEmission& emission) {
+  emits_ = waylight::emits(emission);
+  if (!emits_) return;
+  radiance_ = emission.scale;
+  if (const Grid* grid = std::get_if<Grid>(&emission.radiance))
+    emission_grid_.emplace(*grid);
+  else
+    radiance_ *= std::get<Color>(emission.radiance);
 }
 
 Flight MediumTracker::fly(const Ray& ray, float t_max, const Color& throughput,

@@ -42,6 +42,11 @@ class MediumTracker {
     return {extinction_at(p), albedo_grid_ ? albedo_grid_->color_at(p) : albedo_};
   }
   bool homogeneous() const { return !density_grid_; }
+  bool emits() const { return emits_; }
+  // Le, see MediumEmission.
+  Color emitted_at(const Vec3& p) const {
+    return emission_grid_ ? Color(radiance_ * emission_grid_->color_at(p)) : radiance_;
+  }
 
   // In proportion to transmittance times extinction. Homogeneous media: the exponential of one
   // channel, chosen in proportion to the throughput, with the balance heuristic over the three.
@@ -52,6 +57,12 @@ class MediumTracker {
   // An unbiased estimate between 0 and 1; exact in homogeneous media. Others: residual ratio
   // tracking with the least extinction of each block as control [Novak et al. 2014].
   Color transmittance(const Ray& ray, float t_max, RandomStream& random) const;
+
+  // Radiance that the medium adds along the ray, int_0^t_max T(0, t) sigma_a Le dt. Exact where all
+  // coefficients are constant; else an unbiased estimate, by ratio tracking that collects at every
+  // tentative collision: emission is mostly in thin media, in which real ones are rare. Draws
+  // random numbers only in the latter case.
+  Color emission(const Ray& ray, float t_max, Sampler& sampler) const;
 
   // The blocks along a ray, one in homogeneous media.
   BlockWalk walk(const Ray& ray, float t_max) const {
@@ -66,12 +77,17 @@ class MediumTracker {
                          Sampler& sampler) const;
   Flight track(const Ray& ray, float t_max, const Color& throughput, Sampler& sampler) const;
   Color residual(const Ray& ray, const RayBlock& block, RandomStream& random) const;
+  Color tracked_emission(const Ray& ray, float t_max, RandomStream& random) const;
+  void prepare(const HeterogeneousMedium& medium);
+  void prepare(const MediumEmission& emission);
 
   PhaseFunction phase_;
   Color sigma_t_ = Color::Zero(), albedo_ = Color::Zero();  // where there is no grid
   ExtinctionBounds bounds_;                                 // of sigma_t_
   float scale_ = 1;
-  std::optional<GridLookup> density_grid_, albedo_grid_;
+  bool emits_ = false;
+  Color radiance_ = Color::Zero();  // Le, or the factor of its grid
+  std::optional<GridLookup> density_grid_, albedo_grid_, emission_grid_;
   ExtinctionBlocks blocks_;
 };
 

@@ -24,4 +24,12 @@ void tentative_collisions(BlockWalk blocks, float factor, float u, RandomStream&
   }
 }
 
+// The factor >= 1 with which at least `wanted` tentative collisions are expected along the blocks;
+// 1 where there is no extinction.
+inline float rate_factor(BlockWalk blocks, float wanted) {
+  float depth = 0;
+  for (RayBlock block; depth < wanted && blocks.next(block);) depth += block.most * block.length();
+  return depth > 0 ? std::max(1.0f, wanted / depth) : 1.0f;
+}
+
 }  // namespace waylight

@@ -17,7 +17,9 @@ struct Photon {
   // Photons: W; the sum over all of an area estimates its flux. Importons: no unit; the sum of
   // power times emitted radiance over all that hit emitters estimates the mean of the image.
   Color power;
-  uint32_t path_depth = 0;  // scattering events since emission; 0 is direct light
+  // Scattering events since emission; 0 is direct light. That of media counts from 1: next-event
+  // estimation does not find it.
+  uint32_t path_depth = 0;
 };
 
 // An importon that left the scene towards distant emitters.

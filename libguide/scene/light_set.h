@@ -23,6 +23,7 @@ class LightSet {
   LightSet(const SceneDescription& scene, const SceneSphere& sphere);
 
   bool empty() const { return chosen_.empty(); }
+  double power() const { return empty() ? 0 : by_power_.total(); }  // W, mean of the channels
   bool has_distant() const;  // with power, directional ones included
   Color environment(const Vec3& direction) const;
   float environment_pdf(const Vec3& direction) const;

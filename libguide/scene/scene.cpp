@@ -213,7 +213,12 @@ bool Scene::may_be_transparent(const SurfacePoint& at) const {
   return at.material != kNone && impl_->transparent[at.material];
 }
 
-bool Scene::has_lights() const { return !impl_->lights.empty(); }
+double Scene::emitter_power() const { return impl_->lights.power(); }
+
+bool Scene::has_lights() const {
+  const auto emits = [](const MediumTracker& medium) { return medium.emits(); };
+  return !impl_->lights.empty() || std::any_of(media_.begin(), media_.end(), emits);
+}
 
 bool Scene::has_distant_light() const { return impl_->lights.has_distant(); }
 

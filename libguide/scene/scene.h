@@ -118,7 +118,8 @@ class Scene {
   std::optional<EmissionSample> emit(int emitter, float u, const Vec2& u_position,
                                      const Vec2& u_direction) const;
   float emission_prob(int emitter) const;
-  bool has_lights() const;         // some emitter has power
+  double emitter_power() const;    // W, mean of the colour channels; of media none
+  bool has_lights() const;         // some emitter has power, or some medium emits
   bool has_distant_light() const;  // and some that has is not within the scene's bounds
 
  private:

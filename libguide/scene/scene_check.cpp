@@ -59,19 +59,6 @@ void prepare_map(EnvironmentMap& map, size_t index, std::vector<std::string>& wa
                   index, bad, clean->pixels.size()));
 }
 
-Bounds shape_bounds(const Shape& shape) {
-  Bounds result;
-  if (const Sphere* sphere = std::get_if<Sphere>(&shape.geometry)) {
-    result.extend(Vec3(sphere->center.array() - sphere->radius));
-    result.extend(Vec3(sphere->center.array() + sphere->radius));
-    return result;
-  }
-  const TriangleMesh& mesh = std::get<TriangleMesh>(shape.geometry);
-  for (const auto& triangle : mesh.triangles)
-    for (const uint32_t corner : triangle) result.extend(mesh.positions[corner]);
-  return result;
-}
-
 }  // namespace
 
 std::vector<std::string> prepare_scene(SceneDescription& scene) {
@@ -101,6 +88,19 @@ std::vector<bool> placed_instances(const SceneDescription& scene,
     warnings.push_back(fmt::format("left out {} of {} instances (their transform has no inverse)",
                                    dropped, placed.size()));
   return placed;
+}
+
+Bounds shape_bounds(const Shape& shape) {
+  Bounds result;
+  if (const Sphere* sphere = std::get_if<Sphere>(&shape.geometry)) {
+    result.extend(Vec3(sphere->center.array() - sphere->radius));
+    result.extend(Vec3(sphere->center.array() + sphere->radius));
+    return result;
+  }
+  const TriangleMesh& mesh = std::get<TriangleMesh>(shape.geometry);
+  for (const auto& triangle : mesh.triangles)
+    for (const uint32_t corner : triangle) result.extend(mesh.positions[corner]);
+  return result;
 }
 
 Bounds scene_bounds(const SceneDescription& scene, const std::vector<bool>& placed) {

@@ -18,6 +18,7 @@ std::vector<bool> placed_instances(const SceneDescription& scene,
                                    std::vector<std::string>& warnings);
 
 // Around all shapes and placed instances; corners that no triangle uses do not count.
+Bounds shape_bounds(const Shape& shape);
 Bounds scene_bounds(const SceneDescription& scene, const std::vector<bool>& placed);
 
 }  // namespace waylight

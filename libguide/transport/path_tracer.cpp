@@ -77,6 +77,7 @@ PathVertex PathTracer::next_vertex(Walk& walk, State& state) const {
 std::optional<MediumPoint> PathTracer::fly(Walk& walk, State& state, float t_max,
                                            float crossed) const {
   const MediumTracker& medium = scene_.medium(state.medium);
+  add_emission(walk, state, medium, t_max);
   const Flight end = flight(walk, state, medium, t_max);
   state.throughput *= end.weight;
   if (!end.scattered) return std::nullopt;
@@ -148,6 +149,14 @@ void PathTracer::add_emission(Walk& walk, const State& state, const SurfacePoint
       state.specular ? 0.0f : scene_.light_pdf(state.previous, at, state.ray.direction);
   const float weight = state.specular ? 1.0f : mis_weight(state.pdf, light_pdf);
   walk.add(state.edges, state.throughput * emitted * weight);
+}
+
+// All that the medium emits along the ray up to the next surface, wherever the flight ends: the
+// light behind its end is no other path's. Next-event estimation does not look for it.
+void PathTracer::add_emission(Walk& walk, State& state, const MediumTracker& medium,
+                              float t_max) const {
+  if (!medium.emits() || (options_.hide_emitters && state.edges == 1)) return;
+  walk.add(state.edges, state.throughput * medium.emission(state.ray, t_max, state.sampler));
 }
 
 void PathTracer::add_environment(Walk& walk, const State& state) const {

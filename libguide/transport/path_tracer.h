@@ -95,6 +95,7 @@ class PathTracer {
   bool visit(Walk& walk, State& state, const MediumPoint& at) const;
   bool too_deep(const State& state) const;
   void add_emission(Walk& walk, const State& state, const SurfacePoint& at) const;
+  void add_emission(Walk& walk, State& state, const MediumTracker& medium, float t_max) const;
   void add_environment(Walk& walk, const State& state) const;
 
   // At: SurfacePoint with Directions a DirectionSampler, or MediumPoint with a PhaseSampler.

@@ -39,11 +39,26 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonTracerOptions& option
     expected_contribution_ = static_cast<float>(emission_->expected_image()) * options.power_scale;
     plain_power_ = static_cast<float>(emission_->emitted_power()) * options.power_scale;
   }
-  if (options_.quantity == Quantity::radiance) return;
+  if (options_.quantity == Quantity::radiance) {
+    prepare_media();
+    return;
+  }
   camera_.emplace(scene.description().sensor);
   const int named = scene.description().sensor.medium;
   camera_medium_ = named != kNone ? named : scene.medium_at(camera_->origin());
   stores_escapes_ = scene.has_distant_light();
+}
+
+// By power, between media and emitters.
+void PhotonTracer::prepare_media() {
+  const std::vector<Medium>& media = scene_.description().media;
+  if (std::none_of(media.begin(), media.end(),
+                   [](const Medium& medium) { return emits(medium.emission); }))
+    return;
+  media_.emplace(scene_);
+  const double power = media_->power(), all = power + scene_.emitter_power();
+  media_prob_ = power > 0 ? static_cast<float>(power / all) : 0.0f;
+  plain_power_ += static_cast<float>(media_->power_luminance()) * options_.power_scale;
 }
 
 void PhotonTracer::trace(Sampler& sampler, PhotonRecords* records) const {
@@ -105,11 +120,19 @@ std::optional<PhotonTracer::Particle> PhotonTracer::start(Sampler& sampler) cons
 }
 
 std::optional<PhotonTracer::Particle> PhotonTracer::leave_emitter(Sampler& sampler) const {
+  if (media_prob_ > 0 && sampler.next() < media_prob_) return leave_medium(sampler);
   const std::optional<EmissionSample> emission =
       emission_ ? emission_->sample(sampler) : plain_emission(scene_, sampler);
   if (!emission || is_black(emission->power)) return std::nullopt;
-  return Particle{emission->ray, emission->power * options_.power_scale, 0,
+  return Particle{emission->ray, emission->power * (options_.power_scale / (1 - media_prob_)), 0,
                   scene_.medium_at(emission->ray.origin)};
+}
+
+std::optional<PhotonTracer::Particle> PhotonTracer::leave_medium(Sampler& sampler) const {
+  const std::optional<MediumLights::Sample> emission = media_->sample(sampler);
+  if (!emission || is_black(emission->power)) return std::nullopt;
+  return Particle{emission->ray, emission->power * (options_.power_scale / media_prob_), 1,
+                  emission->medium};
 }
 
 // Uniform over the film, or over its crop window: each pixel is a mean over its own area, and the

@@ -8,6 +8,7 @@
 #include "libguide/guiding/phase_sampler.h"
 #include "libguide/records/photon.h"
 #include "libguide/scene/camera.h"
+#include "libguide/scene/medium_lights.h"
 #include "libguide/scene/scene.h"
 #include "libguide/transport/path_vertex.h"
 
@@ -19,9 +20,10 @@ struct PhotonTracerOptions {
   float power_scale = 1;  // one over the number of particles of the stream
 };
 
-// With an importance cache, photons are guided by it where they leave emitters (EmissionGuide) and
-// in the directions they scatter to (one-sample MIS with the BSDF), and roulette goes by what they
-// are expected to bring to the image.
+// Light that media emit begins with a path depth of one: next-event estimation does not find it, so
+// to a cache it is indirect. With an importance cache, photons are guided by it where they leave
+// emitters (EmissionGuide) and in the directions they scatter to (one-sample MIS with the BSDF),
+// and roulette goes by what they are expected to bring to the image.
 class PhotonTracer {
  public:
   // importance: empty, or of this scene; importons have none. It must outlive this.
@@ -40,6 +42,8 @@ class PhotonTracer {
   };
   std::optional<Particle> start(Sampler& sampler) const;
   std::optional<Particle> leave_emitter(Sampler& sampler) const;
+  std::optional<Particle> leave_medium(Sampler& sampler) const;
+  void prepare_media();
   Particle leave_camera(Sampler& sampler) const;
   PathVertex next_vertex(Particle& particle, PhotonRecords* records, Sampler& sampler) const;
   std::optional<MediumPoint> fly(Particle& particle, float t_max, PhotonRecords* records,
@@ -66,8 +70,10 @@ class PhotonTracer {
   bool stores_escapes_ = false;
   GuidingCaches guide_;
   std::optional<EmissionGuide> emission_;
-  float expected_contribution_ = 0;  // of one photon to the mean of the image, luminance
-  float plain_power_ = 0;            // luminance of a photon that is not guided
+  std::optional<MediumLights> media_;  // that emit
+  float media_prob_ = 0;               // of starting in them
+  float expected_contribution_ = 0;    // of one photon to the mean of the image, luminance
+  float plain_power_ = 0;              // luminance of a photon that is not guided
 };
 
 }  // namespace waylight

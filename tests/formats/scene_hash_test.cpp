@@ -78,6 +78,8 @@ std::vector<Change> changes() {
       {"new light", [](auto& s) { s.emitters.push_back(ConstantEnvironment{Color(1, 1, 1)}); },
        false, false, true},
       {"medium", [](auto& s) { s.media[0].phase = IsotropicPhase(); }, false, false, false, true},
+      {"emission", [](auto& s) { s.media[0].emission.radiance = Color(1, 2, 3); }, false, false,
+       false, true},
       {"inside", [](auto& s) { s.shapes[0].interior_medium = 0; }, false, false, false, true},
   };
 }

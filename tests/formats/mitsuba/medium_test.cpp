@@ -138,6 +138,51 @@ TEST(MitsubaMedia, MaxValueSaysWhatTheLargestVoxelStandsFor) {
   expect_color(std::get<Color>(m.albedo), Color::Constant(0.75f));
 }
 
+MediumEmission emission_of(Content& content, const std::string& type, const std::string& body) {
+  content.import(medium(type, body));
+  return content.scene.media.back().emission;
+}
+
+const std::string kEmission = "<rgb name=\"emission\" value=\"1 2 3\"/>";
+
+TEST(MitsubaMedia, EmissionIsAColourTimesItsScale) {
+  Content content(Dialect::current);
+  EXPECT_FALSE(emits(emission_of(content, "homogeneous", "")));
+  for (const char* type : {"homogeneous", "heterogeneous"}) {
+    const MediumEmission emission = emission_of(
+        content, type, kEmission + "<float name=\"emission_scale\" value=\"2\"/>");
+    EXPECT_TRUE(emits(emission));
+    expect_color(std::get<Color>(emission.radiance), {1, 2, 3});
+    expect_color(emission.scale, Color::Constant(2));
+  }
+}
+
+TEST(MitsubaMedia, EmissionMayBeAGridOfAHeterogeneousMedium) {
+  Content content(Dialect::current);
+  write_grid(content.file("a.vol"));
+  const std::string volume = "<volume name=\"emission\" type=\"gridvolume\">" + kGrid + "</volume>";
+  const MediumEmission emission =
+      emission_of(content, "heterogeneous",
+                  volume + "<rgb name=\"emission_scale\" value=\"1 .5 .1\"/>");
+  const auto grid = std::get<std::shared_ptr<const VolumeGrid>>(emission.radiance);
+  EXPECT_EQ(grid->values, (std::vector<float>{1, 3}));
+  expect_color(emission.scale, {1, 0.5f, 0.1f});
+  EXPECT_NE(content.error_of(medium("homogeneous", volume)).find("emission varies"),
+            std::string::npos);
+}
+
+TEST(MitsubaMedia, EmissionOfAMediumThatDoesNotAbsorbIsWarnedOf) {
+  const std::string white = "<float name=\"albedo\" value=\"1\"/>";
+  for (const char* type : {"homogeneous", "heterogeneous"}) {
+    Content content(Dialect::current);
+    content.import(medium(type, kEmission));
+    EXPECT_TRUE(content.warnings.empty());
+    content.import(medium(type, kEmission + white));
+    ASSERT_EQ(content.warnings.size(), 1u);
+    EXPECT_NE(content.warnings[0].find("emits nothing"), std::string::npos);
+  }
+}
+
 TEST(MitsubaMedia, WrongMediaAreNamed) {
   struct Bad {
     const char* type;
@@ -158,6 +203,10 @@ TEST(MitsubaMedia, WrongMediaAreNamed) {
       {"homogeneous", "<rgb name=\"sigmaT\" value=\"1\"/><rgb name=\"albedo\" value=\"1.5\"/>",
        "outside of 0..1"},
       {"homogeneous", "<float name=\"scale\" value=\"-1\"/>", "scale is negative"},
+      {"homogeneous", "<rgb name=\"emission\" value=\"-1 0 0\"/>", "emission is negative"},
+      {"homogeneous", kEmission + "<float name=\"emissionScale\" value=\"-1\"/>",
+       "emission_scale is negative"},
+      {"homogeneous", "<float name=\"emissionScale\" value=\"1\"/>", "without an emission"},
       {"homogeneous", "<phase type=\"rayleigh\"/>", "unknown phase function"},
       {"homogeneous", "<phase type=\"hg\"><float name=\"g\" value=\"1\"/></phase>", "mean cosine"},
       {"heterogeneous", kAlbedo, "needs a <volume> \"density\""},
