@@ -1,16 +1,16 @@
 #include "libguide/render.h"
 
 #include <atomic>
-#include <chrono>
-#include <ctime>
 
 #include "libguide/base/error.h"
 #include "libguide/base/parallel.h"
+#include "libguide/base/stopwatch.h"
 #include "libguide/render_pilot.h"
 #include "libguide/render_plan.h"
 #include "libguide/scene/camera.h"
 #include "libguide/transport/choice_pilot.h"
 #include "libguide/transport/film.h"
+#include "libguide/transport/fluence_plane.h"
 #include "libguide/transport/path_tracer.h"
 #include "libguide/transport/pixel_estimate.h"
 
@@ -19,29 +19,6 @@ namespace waylight {
 namespace {
 
 constexpr int kTile = kRenderTile;
-
-// Seconds of work: those in which checkpoints are written do not count.
-class Stopwatch {
- public:
-  double seconds() const { return now() - start_; }
-  double cpu_seconds() const { return cpu_now() - cpu_start_; }
-  template <typename Work>
-  void paused(const Work& work) {
-    const double begin = now(), cpu_begin = cpu_now();
-    work();
-    start_ += now() - begin;
-    cpu_start_ += cpu_now() - cpu_begin;
-  }
-
- private:
-  static double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-  }
-  static double cpu_now() { return double(std::clock()) / CLOCKS_PER_SEC; }
-
-  double start_ = now(), cpu_start_ = cpu_now();
-};
 
 void require_caches(const RenderCaches& caches, const RenderOptions& options) {
   const GuideCacheView& guide = caches.guide;
@@ -89,6 +66,7 @@ class Renderer {
         tiles_x_((film_.width() + kTile - 1) / kTile),
         tiles_y_((film_.height() + kTile - 1) / kTile),
         segments_(options.segments ? size_t(tiles_x_) * tiles_y_ : 0) {
+    if (options.fluence) plane_.emplace(scene, *options.fluence, crop_.width, crop_.height);
     use(tracer_options(scene, options));
   }
 
@@ -237,11 +215,16 @@ class Renderer {
       Sampler sampler(options_.seed, stream, s);
       const FilterSampler::Sample offset = filter_.sample(sampler.next_2d());
       const Vec2 pixel = Vec2(film_x + 0.5f, film_y + 0.5f) + offset.offset;
-      const Ray ray = camera_.ray(pixel, sampler.next_2d());
       context.filter_weight = offset.weight;
-      film_.at(x, y).add(tracer_->trace(ray, sampler, context), offset.weight);
+      film_.at(x, y).add(sample(pixel, sampler, context), offset.weight);
     }
     if (segments) segments->samples += count;
+  }
+
+  PathRecord sample(const Vec2& pixel, Sampler& sampler, const PathContext& context) const {
+    if (plane_) return plane_->sample(pixel, *tracer_, guiding_.guide().medium, sampler, context);
+    const Ray ray = camera_.ray(pixel, sampler.next_2d());
+    return tracer_->trace(ray, sampler, context);
   }
 
   void report() const {
@@ -262,6 +245,7 @@ class Renderer {
   FilterSampler filter_;
   GuidingCaches guiding_;
   int camera_medium_;
+  std::optional<FluencePlane> plane_;
   std::optional<PathTracer> tracer_;
   AutoDecision decision_;
   PixelEstimates estimates_;

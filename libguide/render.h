@@ -3,6 +3,7 @@
 // [Vorba et al. 2014], product guiding [Herholz et al. 2016], or resampling [Talbot et al. 2005].
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "libguide/base/run_control.h"
@@ -10,6 +11,7 @@
 #include "libguide/image/image.h"
 #include "libguide/records/aov_set.h"
 #include "libguide/records/brdf_cache.h"
+#include "libguide/records/fluence_slice.h"
 #include "libguide/records/method_figures.h"
 #include "libguide/scene/scene.h"
 #include "libguide/transport/segment_sums.h"
@@ -71,6 +73,8 @@ struct RenderOptions {
   float bsdf_share = 0.5f;  // of rule `fixed`, 0.01..1
   int candidates = 2;       // of mode ris, 1..64
   AovSet aovs;
+  // The fluence in media over a plane, in place of what the camera sees.
+  std::optional<FluenceSlice> fluence;
 
   void validate() const;
 };

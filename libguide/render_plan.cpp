@@ -79,12 +79,12 @@ bool guides_media(const RenderOptions& options) {
 bool insists_on_media(const RenderOptions& options) {
   return options.distance == DistanceMode::guided ||
          options.distance == DistanceMode::probability || options.direction == PhaseMode::mixture ||
-         options.direction == PhaseMode::product;
+         options.direction == PhaseMode::product || (options.fluence && options.fluence->of_cache);
 }
 
 bool needs_cache(const RenderOptions& options) {
   if (options.mode == RenderMode::automatic) return insists_on_media(options);
-  return options.mode != RenderMode::bsdf || guides_media(options);
+  return options.mode != RenderMode::bsdf || guides_media(options) || insists_on_media(options);
 }
 
 Roulette roulette_of(const RenderOptions& options) {
@@ -129,6 +129,10 @@ void RenderOptions::validate() const {
       share_rule != ShareRule::learned || mode != RenderMode::ris,
       "--bsdf-share learned is not for --mode ris, whose share is that of the candidates: give a "
       "number");
+  require(!fluence || mode != RenderMode::automatic,
+          "--mode auto compares ways to render what the camera sees, which --fluence is not");
+  require(!fluence || pixel_estimate == PixelEstimateMode::cache,
+          "--pixel-estimate preview is of what the camera sees, which --fluence is not");
   require(candidates >= 1 && candidates <= 64, "--candidates must be in [1, 64], not {}",
           candidates);
 }
@@ -163,7 +167,7 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
   result.max_split = options.split;
   result.max_depth = options.max_depth == -2 ? defaults.max_depth : options.max_depth;
   result.rr_depth = options.rr_depth == -1 ? defaults.rr_depth : options.rr_depth;
-  result.hide_emitters = defaults.hide_emitters;
+  result.hide_emitters = defaults.hide_emitters && !options.fluence;
   return result;
 }
 

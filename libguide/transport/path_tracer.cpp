@@ -33,6 +33,26 @@ PathRecord PathTracer::trace(const Ray& ray, const Sampler& sampler,
   State state{ray,   sampler, Color::Ones(), Color::Ones(), 1, ray.origin, 0, true,
               false, 1,       camera_medium_};
   walk.reach(1);
+  return follow(walk, state);
+}
+
+// The point is as a vertex whose phase function is even, and that nothing came to.
+PathRecord PathTracer::gather(const Vec3& p, int medium, const Sampler& sampler,
+                              const PathContext& context) const {
+  const PhaseFunction even = IsotropicPhase();
+  const PhaseSampler directions(even, Vec3::UnitZ(), nullptr, nullptr, {});
+  MediumPoint at;
+  at.p = p;
+  at.medium = &scene_.medium(medium);
+  at.index = medium;
+  Walk walk(context);
+  State state{Ray{}, sampler, Color::Constant(4 * kPi), Color::Ones(), 1, p, 0, false, false,
+              0,     medium};
+  return go_on(walk, state, at, directions) ? follow(walk, state) : walk.record;
+}
+
+// To the end, and all copies after it.
+PathRecord PathTracer::follow(Walk& walk, State& state) const {
   for (;;) {
     while (advance(walk, state)) {
     }

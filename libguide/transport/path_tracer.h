@@ -83,10 +83,16 @@ class PathTracer {
   }
 
   PathRecord trace(const Ray& ray, const Sampler& sampler, const PathContext& context = {}) const;
+  // An unbiased estimate of the fluence at a point of a medium, W/m^2: next-event estimation from
+  // there, and a path in a direction that is uniform over the sphere. max_depth counts edges from
+  // the point.
+  PathRecord gather(const Vec3& p, int medium, const Sampler& sampler,
+                    const PathContext& context = {}) const;
 
  private:
   struct State;
   struct Walk;
+  PathRecord follow(Walk& walk, State& state) const;
   bool advance(Walk& walk, State& state) const;
   PathVertex next_vertex(Walk& walk, State& state) const;
   std::optional<MediumPoint> fly(Walk& walk, State& state, float t_max, float crossed) const;

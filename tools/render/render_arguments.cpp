@@ -72,6 +72,21 @@ void read_share(const std::string& text, RenderOptions& options) {
   options.share_rule = ShareRule::fixed;
 }
 
+void read_fluence(const RenderArguments& arguments, RenderOptions& options) {
+  const std::string& text = arguments.fluence;
+  require(!text.empty() || !arguments.fluence_of_cache, "--fluence-of cache belongs to --fluence");
+  if (text.empty()) return;
+  FluenceSlice slice;
+  char axis = 0;
+  int used = 0;
+  const bool read = std::sscanf(text.c_str(), "%c=%f%n", &axis, &slice.position, &used) == 2;
+  require(read && size_t(used) == text.size() && axis >= 'x' && axis <= 'z',
+          "--fluence {}: write the plane as x=NUMBER, y=NUMBER or z=NUMBER", text);
+  slice.axis = axis - 'x';
+  slice.of_cache = arguments.fluence_of_cache;
+  options.fluence = slice;
+}
+
 void add_mode(CLI::App& app, RenderMode& mode) {
   add_choice(
       app, "--mode", kModes, [&mode](size_t i) { mode = static_cast<RenderMode>(i); },
@@ -141,6 +156,16 @@ void add_frame(CLI::App& app, RenderArguments& frame) {
       ->allow_extra_args(false);
 }
 
+void add_fluence(CLI::App& app, RenderArguments& arguments) {
+  app.add_option("--fluence", arguments.fluence,
+                 "In place of the camera's view, the fluence in media over a plane, such as y=0.5")
+      ->type_name("AXIS=POSITION");
+  add_choice(
+      app, "--fluence-of", {"paths", "cache"},
+      [&arguments](size_t i) { arguments.fluence_of_cache = i == 1; },
+      "Where it comes from: path tracing, or the cells of --cache");
+}
+
 void add_sharing(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--bsdf-share", arguments.bsdf_share,
                  "Share of BSDF sampling where there is a guide: 0.01 to 1, learned per cell, or "
@@ -169,6 +194,7 @@ void declare(CLI::App& app, RenderArguments& arguments) {
             {".csv"});
   add_stopping(app, options);
   add_frame(app, arguments);
+  add_fluence(app, arguments);
   app.add_option("--seed", options.seed, "Seed of the random numbers");
   add_sharing(app, arguments);
 }
@@ -178,6 +204,7 @@ RenderOptions complete_options(const RenderArguments& arguments) {
   read_size(arguments.size, options);
   read_crop(arguments.crop, options);
   read_share(arguments.bsdf_share, options);
+  read_fluence(arguments, options);
   for (const std::string& name : arguments.aovs) add_aov(name, options.aovs);
   const bool endless = options.spp == 0 && options.time == 0 && options.error == 0;
   if (endless && !options.checkpoints.empty()) options.time = options.checkpoints.back();
@@ -199,6 +226,7 @@ std::string method_name(const RenderOptions& options) {
     name += ", direction " + kPhases[static_cast<size_t>(options.direction)];
   if (options.roulette != RouletteMode::automatic)
     name += ", roulette " + kRoulettes[static_cast<size_t>(options.roulette)];
+  if (options.fluence) name += options.fluence->of_cache ? ", fluence of cells" : ", fluence";
   return options.split > 1 ? name + ", split" : name;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -20,13 +21,14 @@ namespace {
 
 // The caches that the mode asks for, checked against the scene. Others are not even opened.
 struct LoadedCaches {
-  LoadedCaches(const RenderArguments& arguments, const SceneDescription& scene) {
-    const RenderMode mode = arguments.options.mode;
+  LoadedCaches(const RenderArguments& arguments, const RenderOptions& options,
+               const SceneDescription& scene) {
+    const RenderMode mode = options.mode;
     const std::string scene_name = file_name(arguments.scene.path);
     const bool automatic = mode == RenderMode::automatic;
-    require(!needs_cache(arguments.options) || !arguments.cache.empty(), "--mode {} needs --cache",
-            method_name(arguments.options));
-    if (!(needs_cache(arguments.options) || automatic) || arguments.cache.empty()) return;
+    require(!needs_cache(options) || !arguments.cache.empty(), "--mode {} needs --cache",
+            method_name(options));
+    if (!(needs_cache(options) || automatic) || arguments.cache.empty()) return;
     guide.emplace(arguments.cache);
     require_same_scene(arguments.cache, guide->provenance(), scene_name, scene.hash,
                        SceneParts::all);
@@ -135,7 +137,7 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
   const RenderOptions options = complete_options(arguments);
   if (!arguments.segments.empty()) check_writable(arguments.segments);
   SceneDescription description = load_scene(arguments.scene, run);
-  const LoadedCaches loaded(arguments, description);
+  const LoadedCaches loaded(arguments, options, description);
   Provenance provenance = provenance_of(run, tool, options.seed, arguments.scene, description.hash);
   provenance.parents = loaded.parents;
   const std::unique_ptr<Scene> scene = build_scene(std::move(description), arguments.scene, run);
@@ -144,9 +146,11 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
         fmt::format("\"{}\": no emitter sends light into the scene; the image will be black",
                     arguments.scene.path));
   RenderSummary summary;
+  // Pictures of the fluence show the mean radiance.
+  const float exposure = options.fluence ? -std::log2(4 * kPi) : 0.0f;
   const auto write_images = [&](const Image& image, const std::string& tag) {
     write_exr(tagged(arguments.output, tag), image, exr_attributes(provenance));
-    if (!arguments.png.empty()) write_png(tagged(arguments.png, tag), image);
+    if (!arguments.png.empty()) write_png(tagged(arguments.png, tag), image, exposure);
   };
   const Image image =
       render(*scene, loaded.caches(), options, &summary, run.control,

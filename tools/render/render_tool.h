@@ -10,6 +10,8 @@ struct RenderArguments {
   std::string output, png, cache, brdf, segments;
   std::string size, crop;  // WxH; X,Y,W,H
   std::string bsdf_share = "auto";
+  std::string fluence;  // AXIS=POSITION; empty: the camera's view
+  bool fluence_of_cache = false;
   std::vector<std::string> aovs;  // names
   RenderOptions options;
 };

@@ -91,7 +91,9 @@ TEST(Cloud, LeavesTheBorderEmptyHoweverMuchItFills) {
   for (int z = 0; z < grid.size.z(); ++z)
     for (int y = 0; y < grid.size.y(); ++y)
       for (int x = 0; x < grid.size.x(); ++x, ++value)
-        if (on_border(grid, {x, y, z})) ASSERT_EQ(*value, 0) << x << " " << y << " " << z;
+        if (on_border(grid, {x, y, z})) {
+          ASSERT_EQ(*value, 0) << x << " " << y << " " << z;
+        }
 }
 
 TEST(Cloud, IsTheSameAtAnyNumberOfThreads) {

@@ -1,0 +1,110 @@
+// The fluence in media by path tracing, against closed forms, and that of cells against it.
+
+#include <gtest/gtest.h>
+
+#include "common/small_media.h"
+#include "common/trained.h"
+
+namespace waylight {
+namespace {
+
+using testing::box_of;
+using testing::homogeneous;
+
+const Color kLe(3, 2, 1);
+
+RenderOptions slice_of(int spp, bool of_cache = false) {
+  RenderOptions options;
+  options.spp = spp;
+  options.aovs.variance = true;
+  options.fluence = FluenceSlice{2, 0.3f, of_cache};
+  options.width = options.height = 12;
+  return options;
+}
+
+struct Mean {
+  double value = 0, sigma = 0;
+};
+
+Mean mean_of(const Image& image) {
+  Mean mean;
+  const double pixels = image.width * image.height;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      mean.value += image.at(x, y, 0) / pixels;
+      mean.sigma += image.at(x, y, 3) / sqr(pixels);
+    }
+  mean.sigma = std::sqrt(mean.sigma);
+  return mean;
+}
+
+void expect_mean(const Mean& mean, double expected, const std::string& what) {
+  EXPECT_NEAR(mean.value, expected, 4 * mean.sigma + 3e-4 * expected) << what;
+  EXPECT_LT(mean.sigma, 0.01 * expected) << what << ": says too little";
+}
+
+// In surroundings of radiance Le, media of albedo 1 and those that emit Le themselves.
+TEST(Fluence, IsFourPiTimesTheRadianceInEquilibrium) {
+  Medium glowing = homogeneous(Color(0.5f, 1, 4), Color(0.2f, 0.9f, 0.5f), 0.5f);
+  glowing.emission.radiance = kLe;
+  for (const Medium& medium : {homogeneous(Color::Constant(2), Color::Ones(), 0.5f), glowing,
+                               testing::cloud(testing::lumpy_grid(), 8, 1)}) {
+    SceneDescription description = box_of(medium, {0, 0, 0}, {1, 1, 1});
+    description.emitters.push_back(ConstantEnvironment{kLe});
+    const Scene scene(description);
+    expect_mean(mean_of(render(scene, {}, slice_of(256), nullptr, {})), 4 * kPi * luminance(kLe),
+                "equilibrium");
+  }
+}
+
+// A lamp of radiance L that is a far sphere of solid angle w: in thin fog the fluence is L w.
+TEST(Fluence, OfALampIsItsRadianceTimesItsSolidAngle) {
+  SceneDescription description =
+      box_of(homogeneous(Color::Constant(1e-6f), Color::Zero()), {0, 0, 0}, {1, 1, 1});
+  const int black = testing::add_material(description, "black", DiffuseMaterial{Texture(0.0f)});
+  const Vec3 middle(0.5f, 0.5f, 0.3f);
+  const uint32_t lamp =
+      testing::add_shape(description, Sphere{middle + Vec3(0, 100, 0), 10.0f}, black);
+  testing::make_light(description, lamp, kLe);
+  const double solid_angle = 2 * kPi * (1 - std::sqrt(1 - 0.01));
+  const Scene scene(description);
+  for (const int max_depth : {1, -1}) {
+    RenderOptions options = slice_of(64);
+    options.max_depth = max_depth;
+    expect_mean(mean_of(render(scene, {}, options, nullptr, {})), luminance(kLe) * solid_angle,
+                "lamp");
+  }
+}
+
+TEST(Fluence, IsTheSameInGuidedModes) {
+  SceneDescription description =
+      box_of(homogeneous(Color::Constant(3), Color::Constant(0.9f), 0.5f), {0, 0, 0}, {1, 1, 1});
+  const uint32_t lamp = testing::add_shape(
+      description, testing::rectangle({0, 1.5f, 0}, {1, 0, 0}, {0, 0, 1}),
+      testing::add_material(description, "black", DiffuseMaterial{Texture(0.0f)}));
+  testing::make_light(description, lamp, Color(9, 6, 5));
+  const Scene scene(description);
+  const testing::Trained trained = testing::train(scene, 200'000);
+  const Mean plain = mean_of(render(scene, {}, slice_of(512), nullptr, {}));
+  RenderOptions options = slice_of(256);
+  options.distance = DistanceMode::guided;
+  options.direction = PhaseMode::product;
+  options.roulette = RouletteMode::guided;
+  options.split = 4;
+  options.seed = 7;
+  const Mean guided = mean_of(render(scene, trained.caches(), options, nullptr, {}));
+  EXPECT_NEAR(guided.value, plain.value, 4 * std::hypot(guided.sigma, plain.sigma));
+  const Mean cells = mean_of(render(scene, trained.caches(), slice_of(16, true), nullptr, {}));
+  EXPECT_NEAR(cells.value, plain.value, 0.03 * plain.value);
+}
+
+TEST(Fluence, OfCellsNeedsACacheOfMedia) {
+  const Scene scene(box_of(homogeneous(Color::Ones(), Color::Zero()), {0, 0, 0}, {1, 1, 1}));
+  EXPECT_ANY_THROW(render(scene, {}, slice_of(1, true), nullptr, {}));
+  RenderOptions automatic = slice_of(1);
+  automatic.mode = RenderMode::automatic;
+  EXPECT_ANY_THROW(render(scene, {}, automatic, nullptr, {}));
+}
+
+}  // namespace
+}  // namespace waylight
