@@ -33,9 +33,11 @@ Color MediumTracker::emission(const Ray& ray, float t_max, Sampler& sampler) con
   return (1 - albedo_) * radiance_ * share;
 }
 
-// Every tentative collision counts, weighed by the chance to reach it and to be real.
+// Every tentative collision counts, weighed by the chance to reach it and to be real. A channel
+// without any extinction emits nothing, and must not keep the walk of an endless ray going.
 Color MediumTracker::tracked_emission(const Ray& ray, float t_max, RandomStream& random) const {
   Color sum = Color::Zero(), left = Color::Ones();
+  if (!density_grid_) left = (sigma_t_ > 0).cast<float>();
   const float factor = rate_factor(walk(ray, t_max), kMinCandidates);
   tentative_collisions(walk(ray, t_max), factor, random.next(), random, [&](float t, float rate) {
     const Vec3 p = ray(t);

@@ -104,6 +104,15 @@ TEST(MediumEmission, OfAGridOfEqualVoxelsIsThatOfAHomogeneousMedium) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(estimates.mean[c], expected[c], 0.01f * expected[c]);
 }
 
+TEST(MediumEmission, AlongEndlessRaysEndsWhereAChannelHasNoExtinction) {
+  Medium even{"even", HeterogeneousMedium{Color(0, 1, 2), Color(Color::Zero())}, IsotropicPhase{}};
+  const MediumTracker medium(glowing(even, lumpy_grid()));
+  const Color expected = quadrature(medium, kThrough, kEnd);
+  const Estimates estimates = estimate(medium, kThrough, kInfinity);
+  EXPECT_EQ(estimates.mean[0], 0);
+  for (int c = 1; c < 3; ++c) EXPECT_NEAR(estimates.mean[c], expected[c], 0.02f * expected[c]) << c;
+}
+
 // Real collisions would make the deviation of one ray that of finding anything, 30 times the mean.
 TEST(MediumEmission, OfThinGridsIsNotLeftToRareCollisions) {
   const MediumTracker thin(glowing(cloud(lumpy_grid(), 1e-3f, 0)));
