@@ -149,8 +149,8 @@ TEST(MitsubaMedia, EmissionIsAColourTimesItsScale) {
   Content content(Dialect::current);
   EXPECT_FALSE(emits(emission_of(content, "homogeneous", "")));
   for (const char* type : {"homogeneous", "heterogeneous"}) {
-    const MediumEmission emission = emission_of(
-        content, type, kEmission + "<float name=\"emission_scale\" value=\"2\"/>");
+    const MediumEmission emission =
+        emission_of(content, type, kEmission + "<float name=\"emission_scale\" value=\"2\"/>");
     EXPECT_TRUE(emits(emission));
     expect_color(std::get<Color>(emission.radiance), {1, 2, 3});
     expect_color(emission.scale, Color::Constant(2));
@@ -161,9 +161,8 @@ TEST(MitsubaMedia, EmissionMayBeAGridOfAHeterogeneousMedium) {
   Content content(Dialect::current);
   write_grid(content.file("a.vol"));
   const std::string volume = "<volume name=\"emission\" type=\"gridvolume\">" + kGrid + "</volume>";
-  const MediumEmission emission =
-      emission_of(content, "heterogeneous",
-                  volume + "<rgb name=\"emission_scale\" value=\"1 .5 .1\"/>");
+  const MediumEmission emission = emission_of(
+      content, "heterogeneous", volume + "<rgb name=\"emission_scale\" value=\"1 .5 .1\"/>");
   const auto grid = std::get<std::shared_ptr<const VolumeGrid>>(emission.radiance);
   EXPECT_EQ(grid->values, (std::vector<float>{1, 3}));
   expect_color(emission.scale, {1, 0.5f, 0.1f});
