@@ -59,8 +59,8 @@ class BinWalk {
     } while (!(bin.t1 > bin.t0));
     const MediumCoefficients here = space_.medium.at(space_.ray(bin.t0));
     bin.sigma = space_.medium.homogeneous() ? here.sigma_t : Color::Constant(block_.mean);
-    const MediumGuide& guide = space_.guides.guide(space_.index, cell_.cell);
-    if (guide.known()) scattered_ = guide.scattered(space_.ray.direction);
+    const float known = space_.guides.scattered(space_.index, cell_.cell, looking_);
+    if (known >= 0) scattered_ = known;
     bin.source = luminance(here.albedo) * scattered_;
     return true;
   }
@@ -72,6 +72,7 @@ class BinWalk {
 
  private:
   const FlightSpace& space_;
+  int looking_ = ScatteredBins::of(space_.ray.direction);
   BlockWalk blocks_;
   RayBlock block_;
   LeafWalk cells_;

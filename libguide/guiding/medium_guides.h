@@ -1,15 +1,39 @@
 #pragma once
 // What a cache knows of light in media, prepared for lookup at points and along rays.
 
+#include <algorithm>
+#include <array>
 #include <span>
 #include <vector>
 
 #include "libguide/cache/medium_cache_view.h"
 #include "libguide/directional/vmf_convolution.h"
+#include "libguide/math/octahedral.h"
 #include "libguide/medium/medium.h"
 #include "libguide/spatial/leaf_walk.h"
 
 namespace waylight {
+
+// The directions in which a ray may look at a cell, in bins of about 13 degrees: flights ask every
+// cell along them for what it scatters, and a table is ten times as fast as two convolutions. A bin
+// has the value at its centre; it tells where flights end more often, which biases nothing.
+struct ScatteredBins {
+  static constexpr int kSide = 16, kCount = kSide * kSide;
+
+  static int of(const Vec3& w) {
+    const Vec2 p = direction_to_octahedral(w);
+    return bin(p.y()) * kSide + bin(p.x());
+  }
+  static Vec3 centre(int i) {
+    const auto at = [](int k) { return (2 * k + 1) / float(kSide) - 1; };
+    return octahedral_to_direction({at(i % kSide), at(i / kSide)});
+  }
+
+ private:
+  static int bin(float v) {
+    return std::clamp(static_cast<int>((v + 1) * (0.5f * kSide)), 0, kSide - 1);
+  }
+};
 
 // One cell, in media of one phase function. Luminances; `w` points away from the camera side, along
 // the path.
@@ -27,17 +51,16 @@ class MediumGuide {
     const float indirect = indirect_fluence_ * indirect_.pdf(w);
     return with_direct ? indirect + direct_fluence_ * direct_.pdf(w) : indirect;
   }
-  // int f(w, w') L(x, w') dw': of the indirect light alone, and of all.
+  // int f(w, w') L(x, w') dw' of the indirect light.
   float scattered_indirect(const Vec3& w) const {
     return indirect_fluence_ * scattered_indirect_.pdf(w);
   }
-  float scattered(const Vec3& w) const {
-    return scattered_indirect(w) + direct_fluence_ * scattered_direct_.pdf(w);
-  }
+  // The same of all light, for each of the ScatteredBins; negative where it is not known.
+  std::array<float, ScatteredBins::kCount> scattered(const PhaseLobes& phase) const;
 
  private:
   VmfMixture indirect_, direct_;
-  VmfConvolution scattered_indirect_, scattered_direct_;
+  VmfConvolution scattered_indirect_;
   float indirect_fluence_, direct_fluence_;
   bool known_;
   float trust_;
@@ -56,15 +79,24 @@ class MediumGuides {
   }
   LeafWalk walk(const Ray& ray, float t_max) const { return LeafWalk(nodes_, ray, t_max); }
   const MediumGuide& guide(int medium, uint32_t cell) const {
-    return guides_[phase_of_medium_[medium] * cells_ + cell];
+    return guides_[number(medium, cell)];
+  }
+  // int f(w, w') L(x, w') dw' of all light, `bin` that of w; negative where the cell is not known.
+  float scattered(int medium, uint32_t cell, int bin) const {
+    return scattered_[bin * guides_.size() + number(medium, cell)];
   }
 
  private:
+  size_t number(int medium, uint32_t cell) const {
+    return phase_of_medium_[medium] * cells_ + cell;
+  }
+
   std::span<const CacheNode> nodes_;
   size_t cells_ = 0;
   std::vector<int> phase_of_medium_;
   std::vector<PhaseLobes> phases_;
   std::vector<MediumGuide> guides_;  // phase by phase, cell by cell
+  std::vector<float> scattered_;     // bin by bin, as guides_: a ray stays within one bin
 };
 
 }  // namespace waylight

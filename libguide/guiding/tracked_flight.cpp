@@ -56,8 +56,8 @@ class Sweep {
     left_ *= 1 - real;
     while (cell_.t1 < t && cells_.next(cell_)) {
     }
-    const MediumGuide& guide = space_.guides.guide(space_.index, cell_.cell);
-    if (guide.known()) scattered_ = guide.scattered(space_.ray.direction);
+    const float known = space_.guides.scattered(space_.index, cell_.cell, looking_);
+    if (known >= 0) scattered_ = known;
     offer({{t, true, weight, here}, mean(weight), 0}, luminance(here.albedo) * scattered_);
   }
   // The guide sees nothing where no cell has been known yet; tracking does.
@@ -79,6 +79,7 @@ class Sweep {
 
   const FlightSpace& space_;
   RandomStream& random_;
+  int looking_ = ScatteredBins::of(space_.ray.direction);
   float t_max_;
   LeafWalk cells_;
   LeafSpan cell_;
