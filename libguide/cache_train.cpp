@@ -91,7 +91,8 @@ struct CacheTrainer::Impl {
 CacheTrainer::Impl::Impl(const CacheTrainOptions& options, const PhotonStreamInfo& stream,
                          GuideCache previous)
     : emitted_(stream.emitted) {
-  if (stream.emitted == 0) fail("the photon stream does not say how many particles were emitted");
+  if (stream.emitted == 0 && stream.paths == 0)
+    fail("the photon stream does not say how many particles were emitted");
   const bool goes_on = !previous.nodes.empty() || !previous.medium.nodes.empty();
   if (goes_on) check_previous(previous, stream.quantity);
   start_cache(stream, previous);
@@ -113,6 +114,7 @@ void CacheTrainer::Impl::start_cache(const PhotonStreamInfo& stream, const Guide
     fail("the bounds of the scene in the photon stream are empty or not finite");
   cache_.quantity = stream.quantity;
   cache_.emitted = previous.emitted + stream.emitted;
+  cache_.paths = previous.paths + stream.paths;
   cache_.passes = previous.passes + 1;
   clock_.photons_before = static_cast<double>(previous.photons);
   clock_.particles_before = static_cast<double>(previous.emitted);
@@ -123,12 +125,13 @@ void CacheTrainer::Impl::start_cache(const PhotonStreamInfo& stream, const Guide
 
 SurfaceRules CacheTrainer::Impl::surface_rules(const CacheTrainOptions& options) const {
   const Bounds& scene = cache_.scene_bounds;
-  return {accepted_bounds(scene),
-          static_cast<float>(emitted_),
-          cache_.quantity,
-          {static_cast<size_t>(options.photons_per_cell), static_cast<size_t>(options.max_cells),
-           options.normal_spread, kMinExtent * 2 * scene.radius()},
-          {options.components, options.direct == DirectLight::drop, options.prior}};
+  return {
+      accepted_bounds(scene),
+      static_cast<float>(emitted_),
+      cache_.quantity,
+      {static_cast<size_t>(options.photons_per_cell), static_cast<size_t>(options.max_cells),
+       options.normal_spread, kMinExtent * 2 * scene.radius()},
+      {options.components, options.direct == DirectLight::drop, options.prior, cache_.paths > 0}};
 }
 
 MediumRules CacheTrainer::Impl::medium_rules(const CacheTrainOptions& options) const {
@@ -173,7 +176,8 @@ void CacheTrainer::Impl::finish_surfaces() {
   TrainingTree& tree = surfaces_.tree();
   tree.restate_exposure(clock_);
   tree.lend_mixtures();
-  tree.store(cache_, surfaces_.rules().tree, clock_.photons / clock_.particles);
+  tree.store(cache_, surfaces_.rules().tree,
+             clock_.particles > 0 ? clock_.photons / clock_.particles : 0);
 }
 
 // A cache of a scene without media gets no cell of them.

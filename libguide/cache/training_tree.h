@@ -29,8 +29,8 @@ class TrainingTree : public CellTree<TrainingCell> {
   // Cells without a mixture inherit that of a relative nearby whose surface faces the same way.
   void lend_mixtures();
 
-  // irradiance_scale: photons per emitted particle, 1/J to W of TrainingCell::irradiance.
-  void store(GuideCache& cache, const TreeOptions& tree, double irradiance_scale) const;
+  // photons_per_particle: of the whole training; 0 where no particles were emitted.
+  void store(GuideCache& cache, const TreeOptions& tree, double photons_per_particle) const;
 };
 
 }  // namespace waylight

@@ -38,7 +38,7 @@ class Flux {
         for (const Photon& p : photons) flux[box(scene.bounds(), p)] += luminance(p.power);
         stored_ += photons.size();
       };
-      trace_photons(scene, options, add, {}, {}, importance);
+      trace_photons(scene, options, add, {}, {}, {importance});
       for (int i = 0; i < kBoxes; ++i) sum_[i] += flux[i], sum2_[i] += flux[i] * flux[i];
     }
   }
