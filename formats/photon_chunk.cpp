@@ -103,9 +103,10 @@ void build_header(flatbuffers::FlatBufferBuilder& builder, const PhotonHeader& h
   const auto provenance = add_provenance(builder, header.provenance);
   const PhotonStreamInfo& stream = header.stream;
   const fbs::Bounds bounds = to_flat(stream.scene_bounds);
-  const auto flat = fbs::CreatePhotonHeader(
-      builder, version_of(stream), provenance, stream.scene_bounds.empty() ? nullptr : &bounds,
-      stream.emitted, stream.pass, to_flat(stream.quantity), stream.media, stream.paths);
+  const auto flat = fbs::CreatePhotonHeader(builder, version_of(stream), provenance,
+                                            stream.scene_bounds.empty() ? nullptr : &bounds,
+                                            stream.emitted, stream.pass, to_flat(stream.quantity),
+                                            stream.media, stream.paths, stream.expected);
   finish(builder, fbs::ChunkContent::PhotonHeader, flat.Union());
 }
 
@@ -169,6 +170,7 @@ PhotonHeader header_of(const fbs::PhotonHeader& flat, size_t chunk_bytes, const 
   header.stream.quantity = quantity_from(flat.quantity(), path);
   header.stream.media = flat.media();
   header.stream.paths = flat.paths();
+  header.stream.expected = flat.expected();
   if (header.stream.paths > 0 && header.stream.quantity != Quantity::radiance)
     fail_damaged(path, "camera paths in a stream of importance");
   return header;

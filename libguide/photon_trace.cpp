@@ -114,7 +114,27 @@ void check_guides(const PhotonTraceOptions& options, const TraceGuides& guides) 
     fail("camera paths are guided by a cache of radiance, and this one holds importance");
 }
 
+// For `total` of them, by those in the blocks.
+double expected_records(std::span<const Block> blocks, uint64_t traced, uint64_t total) {
+  double records = 0;
+  for (const Block& block : blocks) records += static_cast<double>(block.records.photons.size());
+  return records * static_cast<double>(total) / static_cast<double>(std::max<uint64_t>(traced, 1));
+}
+
 }  // namespace
+
+uint64_t expected_records(const Scene& scene, const PhotonTraceOptions& options,
+                          const TraceGuides& guides) {
+  if (options.paths == 0) return 0;
+  constexpr uint64_t kTried = 4 * kParticlesPerBlock;
+  Tracing tracing(scene, options, guides);
+  const uint64_t particles = std::min(options.count, kTried);
+  const uint64_t paths = std::min(options.paths, kTried);
+  const double photons =
+      expected_records(tracing.particles(0, particles), particles, options.count);
+  return static_cast<uint64_t>(photons +
+                               expected_records(tracing.paths(0, paths), paths, options.paths));
+}
 
 PhotonTraceSummary trace_photons(const Scene& scene, const PhotonTraceOptions& options,
                                  const PhotonSink& photons, const RunControl& control,

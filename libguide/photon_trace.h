@@ -40,6 +40,11 @@ struct TraceGuides {
   GuideCacheView radiance = {};    // camera paths
 };
 
+// How many photons and samples a trace with camera paths will leave, by the first few thousand of
+// both; 0 without camera paths.
+uint64_t expected_records(const Scene& scene, const PhotonTraceOptions& options,
+                          const TraceGuides& guides = {});
+
 // escapes: may be empty; only importons escape, and only towards distant emitters. in_media: may be
 // empty; importons and camera paths leave nothing in media. Photons and the samples of camera paths
 // come in turns, each in proportion to what it has left.

@@ -1,86 +1,50 @@
 #pragma once
 // What photons and camera paths each tell of a cell, and how much either counts.
 
-#include <algorithm>
-#include <cmath>
-
-#include "libguide/directional/em_batch.h"
 #include "libguide/records/guide_cache.h"
 #include "libguide/records/photon.h"
 
 namespace waylight {
 
 // Photons are flux, and lie where the light is; samples of camera paths are irradiance, and lie
-// where the camera looks. Within a cell either, weighted, describes the same distribution of
-// directions, up to a factor. Weights times sum w / sum w^2 of their kind add up to its effective
-// number of samples, (sum w)^2 / sum w^2: in the mixture, and in the irradiance, each kind then
-// counts by its evidence.
+// where the camera looks. Both estimate the irradiance by direction, E_s p_s(wi) of kind s. The
+// mixture learns from their mean by evidence, n_s = (sum w)^2 / sum w^2 being the effective number
+// of samples of a kind:
+//   sum_s n_s E_s p_s / sum_s n_s E_s,
+// for which a weight counts times E_s sum w / sum w^2. E_s matters where one kind has not found
+// what the other did: such light is missing in its E_s too, and does not look like its own opinion.
 class CellEvidence {
  public:
   CellEvidence() = default;
   explicit CellEvidence(const CellSources& sums) : sums_(sums) {}
   // Of a cell that has seen photons alone.
-  CellEvidence(const CacheCell& cell, const CellTraining& training) {
-    sums_.light_weight = training.flux;
-    if (cell.effective_samples > 0)
-      sums_.light_weight2 = training.flux * training.flux / cell.effective_samples;
-  }
+  CellEvidence(const CacheCell& cell, const CellTraining& training);
 
-  // A photon, or what one camera path found; direct light counts with the look that it belongs to.
-  void add(const Photon& photon, float weight) {
-    if (photon.from == TracedFrom::lights) {
-      sums_.light_weight += weight, sums_.light_weight2 += double{weight} * weight;
-      return;
-    }
-    sums_.camera_looks += photon.path_depth > 0;
-    if (weight > 0) add_found(weight);
-  }
+  // A photon, or what one camera path found. guided: the mixture takes it. Direct light counts with
+  // the look that it belongs to.
+  void add(const Photon& photon, float weight, bool guided);
 
-  // sum w / sum w^2 of what is known of one kind; 1 where that is nothing.
-  float factor(TracedFrom from) const {
-    const bool lights = from == TracedFrom::lights;
-    const double sum2 = lights ? sums_.light_weight2 : sums_.camera_weight2;
-    return sum2 > 0 ? static_cast<float>((lights ? sums_.light_weight : sums_.camera_weight) / sum2)
-                    : 1;
-  }
+  // E_s of the light that the mixture takes over the mean by evidence, from now on; by_photons: the
+  // irradiance that photons say, 0 where that is not known yet: then E_s are taken for equal.
+  void balance(double by_photons);
 
-  // Of both kinds, W/m^2; by_photons: what photons say, with_photons: whether they had time to.
-  float irradiance(float by_photons, bool with_photons) const {
-    if (sums_.camera_looks <= 0) return by_photons;
-    const double photons = with_photons ? effective(sums_.light_weight, sums_.light_weight2) : 0;
-    const double samples = effective(sums_.camera_weight, sums_.camera_weight2);
-    const double by_samples = sums_.camera_weight / sums_.camera_looks;
-    if (photons + samples <= 0) return with_photons ? by_photons : 0;
-    return static_cast<float>((photons * by_photons + samples * by_samples) / (photons + samples));
-  }
+  // What a weight of one kind counts times: E_s / E sum w / sum w^2.
+  float factor(TracedFrom from) const;
+
+  // Of both kinds, W/m^2; with_photons: whether there was time for any.
+  float irradiance(double by_photons, bool with_photons) const;
 
   // As if it had seen a share of this.
-  CellEvidence share(double share) const {
-    CellEvidence result = *this;
-    CellSources& s = result.sums_;
-    for (double* sum : {&s.light_weight, &s.light_weight2, &s.camera_weight, &s.camera_weight2})
-      *sum *= share;
-    s.camera_samples *= static_cast<float>(share), s.camera_looks *= static_cast<float>(share);
-    return result;
-  }
+  CellEvidence share(double share) const;
 
   const CellSources& sums() const { return sums_; }
 
  private:
-  // Samples before the mean is known well enough to bound others by it.
-  static constexpr float kOwnMeanSamples = 32;
-
-  static double effective(double sum, double sum2) { return sum2 > 0 ? sum * sum / sum2 : 0; }
-
-  // Cut at kMaxTrainingWeight times the mean of those that found light, as in the mixture.
-  void add_found(double weight) {
-    if (sums_.camera_samples >= kOwnMeanSamples)
-      weight = std::min(weight, kMaxTrainingWeight * sums_.camera_weight / sums_.camera_samples);
-    sums_.camera_weight += weight, sums_.camera_weight2 += weight * weight;
-    sums_.camera_samples += 1;
-  }
+  double light_samples() const;
+  double camera_samples() const;
 
   CellSources sums_;
+  float light_balance_ = 1, camera_balance_ = 1;
 };
 
 }  // namespace waylight

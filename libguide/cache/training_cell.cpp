@@ -84,9 +84,10 @@ void TrainingCell::locate(std::span<const Photon> block, std::span<const uint32_
   for (uint32_t i : indices) {
     const Photon& photon = block[i];
     const float weight = weight_of(photon, emitted);
-    if (options.mixes) evidence_.add(photon, weight);
+    const bool guided = weight > 0 && !drops(photon, options);
+    if (options.mixes) evidence_.add(photon, weight, guided);
     const bool from_lights = photon.from == TracedFrom::lights;
-    if (!from_lights && (!(weight > 0) || drops(photon, options))) continue;
+    if (!from_lights && !guided) continue;
     moments.add(photon, from_lights ? weight : 0);
     own_.extend(photon.position);
     ++own_count_;
@@ -198,10 +199,13 @@ float TrainingCell::photon_irradiance(double now, double min_area) const {
   return spread > 0 ? static_cast<float>(std::min(training_.flux / spread, limit)) : 0.0f;
 }
 
+void TrainingCell::balance_sources(double now, double min_area, double photons_per_particle) {
+  evidence_.balance(photon_irradiance(now, min_area) * photons_per_particle);
+}
+
 float TrainingCell::irradiance(double now, double min_area, double photons_per_particle) const {
   const double by_photons = photon_irradiance(now, min_area) * photons_per_particle;
-  return evidence_.irradiance(static_cast<float>(by_photons),
-                              photons_per_particle > 0 && now > training_.born);
+  return evidence_.irradiance(by_photons, photons_per_particle > 0 && now > training_.born);
 }
 
 }  // namespace waylight

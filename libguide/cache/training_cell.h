@@ -15,7 +15,8 @@ struct CellTrainingOptions {
   int components = 8;
   bool drop_direct = false;
   MixturePrior prior;
-  bool mixes = false;  // camera paths are among the photons, or were
+  bool mixes = false;               // camera paths are among the photons, or were
+  double photons_per_particle = 0;  // of the whole training, as far as is known; where it mixes
 };
 
 // Gaussians over the disk of a cell's mean normal.
@@ -69,6 +70,9 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   // Takes over the mixture of a cell nearby, as a child does that of its parent; `share` of its
   // evidence, in (0, 1], comes with it.
   void inherit_mixture(const TrainingCell& from, float share);
+
+  // How photons and samples of camera paths are weighed from now on; see irradiance().
+  void balance_sources(double now, double min_area, double photons_per_particle);
 
   // W/m^2, with a few photons' worth of what its parent knew: weight of photons per area and photon
   // of the training, times photons_per_particle, and what camera paths found. Photons on less than

@@ -87,8 +87,9 @@ std::string check_sources(const GuideCache& cache) {
   if (cache.sources.size() != (cache.paths > 0 ? cache.cells.size() : 0))
     return "what camera paths found does not belong to the cells";
   for (const CellSources& s : cache.sources)
-    if (!finite_and_not_negative({s.light_weight, s.light_weight2, s.camera_weight,
-                                  s.camera_weight2, s.camera_samples, s.camera_looks}))
+    if (!finite_and_not_negative({s.light_all, s.light_guided, s.light_guided2, s.camera_all,
+                                  s.camera_guided, s.camera_guided2, s.camera_samples,
+                                  s.camera_looks}))
       return "a sum of what camera paths found is negative or not finite";
   return {};
 }

@@ -65,6 +65,10 @@ void TrainingTree::split_full_cells(const TreeOptions& tree, const CellTrainingO
       [&](const TrainingCell& cell, const CellSplit& split, bool upper) {
         return cell.child(split, upper, now, sqr(tree.min_extent), options);
       });
+  if (!options.mixes) return;
+  parallel_for(size(), [&](size_t i) {
+    (*this)[i].balance_sources(now, sqr(tree.min_extent), options.photons_per_particle);
+  });
 }
 
 void TrainingTree::lend_mixtures() {

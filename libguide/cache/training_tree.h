@@ -23,7 +23,8 @@ class TrainingTree : public CellTree<TrainingCell> {
     return CellTree::find(photon.position, photon.normal);
   }
 
-  // Splits the cells that saw more than their photons. now: photons of the whole training so far.
+  // Splits the cells that saw more than their photons, and balances the kinds of them. now: photons
+  // of the whole training so far.
   void split_full_cells(const TreeOptions& tree, const CellTrainingOptions& options, double now);
 
   // Cells without a mixture inherit that of a relative nearby whose surface faces the same way.

@@ -60,13 +60,14 @@ struct CellTraining {
   double weight_sum = 0, weight_sum2 = 0;
 };
 
-// What each kind of record says of a cell, where camera paths are among them: the sums of weights
-// and of their squares, and how many samples of camera paths found light and how many looked for
-// it. A sample's weight is the luminance of its irradiance. Of those since the cell was made, and
-// of a few of its parent's.
+// What photons and camera paths each say of a cell, where there are camera paths: sums of weights,
+// of the weights that the mixture takes (as a rule those of indirect light), and of the squares of
+// these; how many samples of camera paths the mixture took, and how many looked for light. A
+// sample's weight is the luminance of its irradiance. Of those since the cell was made, and of a few
+// of its parent's.
 struct CellSources {
-  double light_weight = 0, light_weight2 = 0;
-  double camera_weight = 0, camera_weight2 = 0;
+  double light_all = 0, light_guided = 0, light_guided2 = 0;
+  double camera_all = 0, camera_guided = 0, camera_guided2 = 0;
   float camera_samples = 0, camera_looks = 0;
 };
 

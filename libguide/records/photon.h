@@ -93,6 +93,9 @@ struct PhotonStreamInfo {
   Quantity quantity = Quantity::radiance;
   bool media = false;  // the scene has media, and the stream may hold photons in them
   uint64_t paths = 0;  // camera paths whose samples stand beside the photons
+  // Photons and samples that are to come, by a few of both traced before; 0: it is not known, as in
+  // streams without camera paths.
+  uint64_t expected = 0;
 };
 
 }  // namespace waylight

@@ -45,7 +45,13 @@ Traced trace(const Scene& scene, uint64_t count, uint64_t paths, const TraceGuid
   PhotonTraceOptions options;
   options.count = count, options.paths = paths, options.pass = pass;
   Traced result;
-  result.stream = {scene.bounds(), count, pass, Quantity::radiance, false, paths};
+  result.stream = {scene.bounds(),
+                   count,
+                   pass,
+                   Quantity::radiance,
+                   false,
+                   paths,
+                   expected_records(scene, options, guides)};
   const auto add = [&](std::span<const Photon> photons) {
     result.records.insert(result.records.end(), photons.begin(), photons.end());
   };

@@ -104,9 +104,14 @@ void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArg
     if (!guide.empty()) provenance.parents.push_back(parent_of(guide));
   const bool media =
       scene.has_media() && options.quantity == Quantity::radiance && options.count > 0;
-  PhotonWriter writer(arguments.output, {provenance,
-                                         {scene.bounds(), options.count, options.pass,
-                                          options.quantity, media, options.paths}});
+  const PhotonStreamInfo stream{scene.bounds(),
+                                options.count,
+                                options.pass,
+                                options.quantity,
+                                media,
+                                options.paths,
+                                expected_records(scene, options, guides.views())};
+  PhotonWriter writer(arguments.output, {provenance, stream});
   const PhotonTraceSummary summary = trace_photons(
       scene, options, [&](std::span<const Photon> photons) { writer.write(photons); }, run.control,
       [&](std::span<const Escape> escapes) { writer.write(escapes); }, guides.views(),
