@@ -51,16 +51,16 @@ class Tracing {
  private:
   template <typename TraceOne>
   std::span<const Block> trace(uint64_t first, uint64_t last, Stream stream,
-                               const TraceOne& trace_one);
+                               std::vector<Block>& blocks, const TraceOne& trace_one) const;
 
   PhotonTraceOptions options_;
   std::optional<PhotonTracer> particles_;
   std::optional<RadianceTracer> paths_;
-  std::vector<Block> blocks_;
+  std::vector<Block> particle_blocks_, path_blocks_;
 };
 
 Tracing::Tracing(const Scene& scene, const PhotonTraceOptions& options, const TraceGuides& guides)
-    : options_(options), blocks_(kBlocksPerRound) {
+    : options_(options), particle_blocks_(kBlocksPerRound), path_blocks_(kBlocksPerRound) {
   const PhotonTracerOptions particles{options.quantity, options.max_depth, options.rr_depth,
                                       1.0f / static_cast<float>(options.count)};
   if (options.count > 0) particles_.emplace(scene, particles, guides.importance);
@@ -70,10 +70,10 @@ Tracing::Tracing(const Scene& scene, const PhotonTraceOptions& options, const Tr
 
 template <typename TraceOne>
 std::span<const Block> Tracing::trace(uint64_t first, uint64_t last, Stream stream,
-                                      const TraceOne& trace_one) {
+                                      std::vector<Block>& blocks, const TraceOne& trace_one) const {
   const size_t used = (last - first + kParticlesPerBlock - 1) / kParticlesPerBlock;
   parallel_for(used, [&](size_t b) {
-    Block& block = blocks_[b];
+    Block& block = blocks[b];
     block.records.clear();
     const uint64_t begin = first + b * kParticlesPerBlock;
     const uint64_t end = std::min(begin + kParticlesPerBlock, last);
@@ -82,19 +82,27 @@ std::span<const Block> Tracing::trace(uint64_t first, uint64_t last, Stream stre
       trace_one(sampler, block);
     }
   });
-  return std::span(blocks_).first(used);
+  return std::span(blocks).first(used);
 }
 
 std::span<const Block> Tracing::particles(uint64_t first, uint64_t last) {
   const bool photons = options_.quantity == Quantity::radiance;
-  return trace(first, last, photons ? Stream::photons : Stream::importons,
+  return trace(first, last, photons ? Stream::photons : Stream::importons, particle_blocks_,
                [&](Sampler& sampler, Block& block) { particles_->trace(sampler, &block.records); });
 }
 
 std::span<const Block> Tracing::paths(uint64_t first, uint64_t last) {
-  return trace(first, last, Stream::paths, [&](Sampler& sampler, Block& block) {
+  return trace(first, last, Stream::paths, path_blocks_, [&](Sampler& sampler, Block& block) {
     paths_->trace(sampler, block.path, &block.records);
   });
+}
+
+// In turns, each in proportion to how many there are: a cell that is made in between has seen
+// both kinds for about as long.
+template <typename Sink>
+void take_turns(std::span<const Block> a, std::span<const Block> b, const Sink& sink) {
+  for (size_t i = 0, j = 0; i < a.size() || j < b.size();)
+    sink(i * b.size() <= j * a.size() && i < a.size() ? a[i++] : b[j++]);
 }
 
 // Each round has its share of both.
@@ -145,20 +153,19 @@ PhotonTraceSummary trace_photons(const Scene& scene, const PhotonTraceOptions& o
   const auto start = std::chrono::steady_clock::now();
   Tracing tracing(scene, options, guides);
   PhotonTraceSummary summary;
-  const auto pass_on = [&](std::span<const Block> blocks) {
-    for (const Block& block : blocks) {
-      photons(block.records.photons);
-      if (escapes) escapes(block.records.escapes);
-      if (in_media) in_media(block.records.in_media);
-      summary += block.records.counts;
-    }
+  const auto pass_on = [&](const Block& block) {
+    photons(block.records.photons);
+    if (escapes) escapes(block.records.escapes);
+    if (in_media) in_media(block.records.in_media);
+    summary += block.records.counts;
   };
   const uint64_t rounds = (std::max(options.count, options.paths) + kRound - 1) / kRound;
   for (uint64_t i = 0; i < rounds && !control.stopped(); ++i) {
-    pass_on(tracing.particles(begin_of(i, rounds, options.count),
-                              begin_of(i + 1, rounds, options.count)));
-    pass_on(
-        tracing.paths(begin_of(i, rounds, options.paths), begin_of(i + 1, rounds, options.paths)));
+    const auto particles = tracing.particles(begin_of(i, rounds, options.count),
+                                             begin_of(i + 1, rounds, options.count));
+    const auto paths =
+        tracing.paths(begin_of(i, rounds, options.paths), begin_of(i + 1, rounds, options.paths));
+    take_turns(particles, paths, pass_on);
     control.progress(double(summary.emitted + summary.paths), double(options.count + options.paths),
                      "particles");
   }

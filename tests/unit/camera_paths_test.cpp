@@ -153,7 +153,8 @@ TEST(CameraPaths, RoughGlassLooksToBothSidesFromEachVertex) {
 TEST(CameraPaths, CellsOfAFurnaceHaveItsIrradiance) {
   const Scene scene(furnace(kGrey));
   const double expected = kPi * kEmitted / (1 - kReflectance);
-  for (const auto& [count, paths] : {std::pair(0, 40'000), std::pair(40'000, 40'000)}) {
+  for (const auto& [count, paths] :
+       {std::pair(0, 40000), std::pair(40000, 40000), std::pair(40000, 0)}) {
     const GuideCache cache = train(trace(scene, count, paths));
     double mean = 0, weight = 0;
     for (size_t i = 0; i < cache.cells.size(); ++i) {
