@@ -38,7 +38,7 @@ struct GaussianLobes {
                      std::span<ComponentStatistics> statistics, size_t count, size_t wanted);
 };
 
-// About 1.7 KiB; the memory of the training is this per cell and nothing per photon.
+// About 1.8 KiB; the memory of the training is this per cell and nothing per photon.
 class TrainingCell : private OnlineMixture<GaussianLobes> {
  public:
   TrainingCell() = default;

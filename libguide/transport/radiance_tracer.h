@@ -28,7 +28,7 @@ struct RadianceStep {
   Color weight = Color::Ones();     // of what arrives, to what leaves towards the camera
   Color edge = Color::Ones();       // of what leaves the next step, to what arrives here
   Color direct = Color::Zero();     // radiance straight from emitters, MIS-weighted
-  Color scattered = Color::Zero();  // radiance that the edge collects by next-event estimation
+  Color scattered = Color::Zero();  // radiance by next-event estimation at its end, and of media
   Vec3 to_light;                    // of next-event estimation at this vertex
   Color light = Color::Zero();      // its estimate of the direct irradiance, MIS-weighted
 };

@@ -42,7 +42,8 @@ std::optional<DirectionSample> SpreadDirections::sample(Sampler& sampler) const 
   const float u = sampler.next(), u_side = sampler.next();
   const Vec2 u2 = sampler.next_2d();
   if (u < kCosineShare) {
-    DirectionSample s{.wi = sample_cosine(u_side, u2)};
+    DirectionSample s;
+    s.wi = sample_cosine(u_side, u2);
     const EvalPdf f = evaluate(s.wi);
     if (!(f.pdf > 0)) return std::nullopt;
     s.weight = f.value / f.pdf, s.pdf = f.pdf;
