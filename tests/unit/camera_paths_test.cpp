@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "common/small_scenes.h"
+#include "common/small_media.h"
 #include "libguide/base/error.h"
 #include "libguide/base/parallel.h"
 #include "libguide/cache/training_check.h"
@@ -121,6 +121,20 @@ TEST(CameraPaths, GuidesChangeNoMean) {
   const GuideCache cache = train(trace(other, 50'000, 0), {}, direct);
   expect_furnace(mean_irradiance(
       trace(scene, 0, 40'000, {.radiance = GuideCacheView(cache)}).records, kAnywhere));
+}
+
+// Dense and black but for its glow, a medium lights the walls with its own radiance.
+TEST(CameraPaths, GlowOfMediaIsIndirectLight) {
+  SceneDescription description = furnace(kGrey);
+  for (EmitterDescription& emitter : description.emitters)
+    std::get<AreaLight>(emitter).radiance = Texture(0.01f);
+  description.media.push_back(testing::homogeneous(Color::Constant(20), Color::Zero()));
+  description.media.back().emission.radiance = Color::Constant(kEmitted);
+  description.sensor.medium = 0;
+  description.sensor.to_world(2, 3) = 0.99f;  // at a wall, for a few to get there
+  const Scene scene(std::move(description));
+  const Irradiance e = mean_irradiance(trace(scene, 0, 20000).records, kAnywhere);
+  EXPECT_NEAR(e.indirect, kPi * kEmitted, 0.03 * kPi * kEmitted);
 }
 
 // However narrow the lobe that a path follows, cos / p <= 2 pi.
