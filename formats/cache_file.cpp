@@ -9,11 +9,14 @@
 namespace waylight {
 namespace {
 
-// Readers of version 1 take everything for radiance; those of version 2 know no media.
-constexpr uint32_t kFormatVersion = 3, kImportanceVersion = 2, kRadianceVersion = 1;
+// Readers of version 1 take everything for radiance; those of version 2 know no media; those of
+// version 3 would train photons alone from where camera paths came to.
+constexpr uint32_t kFormatVersion = 4, kMediaVersion = 3, kImportanceVersion = 2;
+constexpr uint32_t kRadianceVersion = 1;
 
 uint32_t version_of(const GuideCache& cache) {
-  if (!cache.medium.cells.empty()) return kFormatVersion;
+  if (!cache.sources.empty()) return kFormatVersion;
+  if (!cache.medium.cells.empty()) return kMediaVersion;
   return cache.quantity == Quantity::radiance ? kRadianceVersion : kImportanceVersion;
 }
 
@@ -23,15 +26,15 @@ size_t bytes_needed(const CacheFile& file) {
          c.cells.size() * sizeof(CacheCell) + c.reaches.size() * sizeof(CellReach) +
          c.components.size() * sizeof(GaussianComponent) +
          c.statistics.size() * sizeof(ComponentStatistics) +
-         c.training.size() * sizeof(CellTraining) +
+         c.training.size() * sizeof(CellTraining) + c.sources.size() * sizeof(CellSources) +
          (c.escape_bins.size() + c.escape_weights.size()) * sizeof(float) + medium_bytes(c.medium);
 }
 
 // What is wrong with the training part; check() of the view comes first.
 std::string check_training_part(const GuideCache& cache) {
   const MediumCache& medium = cache.medium;
-  if (cache.statistics.empty() && cache.training.empty() && medium.statistics.empty() &&
-      medium.training.empty())
+  if (cache.statistics.empty() && cache.training.empty() && cache.sources.empty() &&
+      medium.statistics.empty() && medium.training.empty())
     return {};
   return check_training(cache);
 }
@@ -76,6 +79,8 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
   const auto nodes = add_records(builder, c.nodes);
   flatbuffers::Offset<flatbuffers::Vector<const fbs::CellReach*>> reaches;
   if (!c.reaches.empty()) reaches = add_records(builder, c.reaches);
+  flatbuffers::Offset<flatbuffers::Vector<const fbs::CellSources*>> sources;
+  if (!c.sources.empty()) sources = add_records(builder, c.sources);
   flatbuffers::Offset<flatbuffers::Vector<uint32_t>> escape_bins;
   flatbuffers::Offset<flatbuffers::Vector<float>> escape_weights;
   if (!c.escape_bins.empty()) escape_bins = builder.CreateVector(c.escape_bins);
@@ -84,11 +89,12 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
   const auto provenance = add_provenance(builder, file.provenance);
   const fbs::Bounds bounds = waylight::to_flat(c.scene_bounds);
   fbs::FinishGuideCacheBuffer(
-      builder, fbs::CreateGuideCache(
-                   builder, version_of(c), provenance, &bounds, c.emitted, c.passes, c.photons,
-                   nodes, cells, components, statistics, training, waylight::to_flat(c.quantity),
-                   escape_bins, escape_weights, c.medium.emitted, c.medium.photons, medium.nodes,
-                   medium.cells, medium.components, medium.statistics, medium.training, reaches));
+      builder,
+      fbs::CreateGuideCache(
+          builder, version_of(c), provenance, &bounds, c.emitted, c.passes, c.photons, nodes, cells,
+          components, statistics, training, waylight::to_flat(c.quantity), escape_bins,
+          escape_weights, c.medium.emitted, c.medium.photons, medium.nodes, medium.cells,
+          medium.components, medium.statistics, medium.training, reaches, c.paths, sources));
 }
 
 const fbs::GuideCache& root_of(const FileMap& map) {
@@ -130,6 +136,8 @@ GuideCache copy_of(const fbs::GuideCache& root, const std::string& path) {
   cache.components = waylight::copy_of(view.components);
   cache.statistics = waylight::copy_of(records_of<ComponentStatistics>(root.statistics(), path));
   cache.training = waylight::copy_of(records_of<CellTraining>(root.training(), path));
+  cache.paths = root.paths();
+  cache.sources = waylight::copy_of(records_of<CellSources>(root.sources(), path));
   cache.medium = medium_copy_of(root, path);
   return cache;
 }

@@ -13,6 +13,7 @@ FLAT_RECORD(CacheCell, fbs::CacheCell);
 FLAT_RECORD(CellReach, fbs::CellReach);
 FLAT_RECORD(ComponentStatistics, fbs::ComponentStatistics);
 FLAT_RECORD(CellTraining, fbs::CellTraining);
+FLAT_RECORD(CellSources, fbs::CellSources);
 static_assert(offsetof(CacheCell, irradiance) == 12 && offsetof(CacheCell, component_count) == 32);
 static_assert(offsetof(CellTraining, flux) == 64 && offsetof(CellTraining, weight_sum) == 96);
 

@@ -7,14 +7,16 @@ namespace waylight {
 namespace {
 
 // Readers of version 1 take everything for radiance, and know no escapes; those of version 2 know
-// no media.
-constexpr uint32_t kFormatVersion = 3, kImportanceVersion = 2, kRadianceVersion = 1;
+// no media, and those of version 3 no camera paths.
+constexpr uint32_t kFormatVersion = 4, kMediaVersion = 3, kImportanceVersion = 2;
+constexpr uint32_t kRadianceVersion = 1;
 
 static_assert(sizeof(fbs::Photon) == 36 && sizeof(fbs::Escape) == 32);
 static_assert(sizeof(fbs::MediumPhoton) == 32);
 
 uint32_t version_of(const PhotonStreamInfo& stream) {
-  if (stream.media) return kFormatVersion;
+  if (stream.paths > 0) return kFormatVersion;
+  if (stream.media) return kMediaVersion;
   return stream.quantity == Quantity::radiance ? kRadianceVersion : kImportanceVersion;
 }
 
@@ -101,9 +103,10 @@ void build_header(flatbuffers::FlatBufferBuilder& builder, const PhotonHeader& h
   const auto provenance = add_provenance(builder, header.provenance);
   const PhotonStreamInfo& stream = header.stream;
   const fbs::Bounds bounds = to_flat(stream.scene_bounds);
-  const auto flat = fbs::CreatePhotonHeader(
-      builder, version_of(stream), provenance, stream.scene_bounds.empty() ? nullptr : &bounds,
-      stream.emitted, stream.pass, to_flat(stream.quantity), stream.media);
+  const auto flat = fbs::CreatePhotonHeader(builder, version_of(stream), provenance,
+                                            stream.scene_bounds.empty() ? nullptr : &bounds,
+                                            stream.emitted, stream.pass, to_flat(stream.quantity),
+                                            stream.media, stream.paths, stream.expected);
   finish(builder, fbs::ChunkContent::PhotonHeader, flat.Union());
 }
 
@@ -126,10 +129,18 @@ void build_block(flatbuffers::FlatBufferBuilder& builder,
   finish(builder, fbs::ChunkContent::MediumBlock, fbs::CreateMediumBlock(builder, vector).Union());
 }
 
+void build_sample_block(flatbuffers::FlatBufferBuilder& builder,
+                        std::span<const fbs::Photon> samples) {
+  builder.Clear();
+  const auto vector = builder.CreateVectorOfStructs(samples.data(), samples.size());
+  finish(builder, fbs::ChunkContent::SampleBlock, fbs::CreateSampleBlock(builder, vector).Union());
+}
+
 void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& c) {
   builder.Clear();
-  const auto end = fbs::CreatePhotonEnd(builder, c.emitted, c.stored, c.left_scene, c.absorbed,
-                                        c.too_deep, c.invalid, c.escapes, c.in_media);
+  const auto end =
+      fbs::CreatePhotonEnd(builder, c.emitted, c.stored, c.left_scene, c.absorbed, c.too_deep,
+                           c.invalid, c.escapes, c.in_media, c.paths, c.samples);
   finish(builder, fbs::ChunkContent::PhotonEnd, end.Union());
 }
 
@@ -158,12 +169,22 @@ PhotonHeader header_of(const fbs::PhotonHeader& flat, size_t chunk_bytes, const 
   header.stream.pass = flat.pass();
   header.stream.quantity = quantity_from(flat.quantity(), path);
   header.stream.media = flat.media();
+  header.stream.paths = flat.paths();
+  header.stream.expected = flat.expected();
+  if (header.stream.paths > 0 && header.stream.quantity != Quantity::radiance)
+    fail_damaged(path, "camera paths in a stream of importance");
   return header;
 }
 
 void photons_of(const fbs::PhotonBlock& flat, const std::string& path,
                 std::vector<Photon>* photons) {
   unpack_all(flat.photons(), path, "a photon", photons);
+}
+
+void samples_of(const fbs::SampleBlock& flat, const std::string& path,
+                std::vector<Photon>* samples) {
+  unpack_all(flat.samples(), path, "a sample of a camera path", samples);
+  for (Photon& sample : *samples) sample.from = TracedFrom::camera;
 }
 
 void escapes_of(const fbs::EscapeBlock& flat, const std::string& path,
@@ -186,6 +207,8 @@ PhotonCounts counts_of(const fbs::PhotonEnd& flat) {
   counts.invalid = flat.invalid();
   counts.escapes = flat.escapes();
   counts.in_media = flat.in_media();
+  counts.paths = flat.paths();
+  counts.samples = flat.samples();
   return counts;
 }
 

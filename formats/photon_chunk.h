@@ -30,6 +30,8 @@ void build_block(flatbuffers::FlatBufferBuilder& builder, std::span<const fbs::P
 void build_block(flatbuffers::FlatBufferBuilder& builder, std::span<const fbs::Escape> escapes);
 void build_block(flatbuffers::FlatBufferBuilder& builder,
                  std::span<const fbs::MediumPhoton> photons);
+void build_sample_block(flatbuffers::FlatBufferBuilder& builder,
+                        std::span<const fbs::Photon> samples);
 void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& counts);
 
 // A chunk with its size prefix, verified.
@@ -38,6 +40,8 @@ const fbs::PhotonChunk& verified_chunk(std::string_view bytes, const std::string
 PhotonHeader header_of(const fbs::PhotonHeader& flat, size_t chunk_bytes, const std::string& path);
 void photons_of(const fbs::PhotonBlock& flat, const std::string& path,
                 std::vector<Photon>* photons);
+void samples_of(const fbs::SampleBlock& flat, const std::string& path,
+                std::vector<Photon>* samples);
 void escapes_of(const fbs::EscapeBlock& flat, const std::string& path,
                 std::vector<Escape>* escapes);
 void medium_photons_of(const fbs::MediumBlock& flat, const std::string& path,

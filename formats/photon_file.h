@@ -24,10 +24,11 @@ class PhotonWriter {
  public:
   PhotonWriter(const std::string& path, const PhotonHeader& header);
   ~PhotonWriter();  // removes what finish() did not complete
+  // Photons, and what camera paths found where header.stream.paths says that there are any.
   void write(std::span<const Photon> photons);
   void write(std::span<const Escape> escapes);        // in a stream of importance only
   void write(std::span<const MediumPhoton> photons);  // where header.stream.media says so
-  // counts.stored, counts.escapes and counts.in_media must be the numbers written.
+  // counts.stored, .samples, .escapes and .in_media must be the numbers written.
   void finish(const PhotonCounts& counts);
   uint64_t content_hash() const;  // of all bytes written so far
 
@@ -42,9 +43,10 @@ class PhotonReader {
   explicit PhotonReader(const std::string& path);
   ~PhotonReader();
   const PhotonHeader& header() const;
-  // The next photons of one kind, or false at the end; who gives no place for escapes or for
-  // photons in media passes over them. Throws Error for a chunk that is damaged, out of place or
-  // missing, and for photons whose position or power is not finite or whose power is negative.
+  // The next photons of one kind, or false at the end; what camera paths found comes as photons;
+  // who gives no place for escapes or for photons in media passes over them. Throws Error for a
+  // chunk that is damaged, out of place or missing, and for photons whose position or power is not
+  // finite or whose power is negative.
   bool read(std::vector<Photon>* photons, std::vector<Escape>* escapes = nullptr,
             std::vector<MediumPhoton>* in_media = nullptr);
   const PhotonCounts& counts() const;  // after read() said false

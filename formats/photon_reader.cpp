@@ -51,6 +51,9 @@ struct PhotonReader::Impl {
                   std::vector<Escape>& escapes, std::vector<MediumPhoton>& in_media) {
     if (const fbs::PhotonBlock* block = chunk.content_as_PhotonBlock())
       photons_of(*block, source.name(), &photons);
+    else if (const fbs::SampleBlock* found = chunk.content_as_SampleBlock();
+             found && header.stream.paths > 0)
+      return read_samples(*found, photons);
     else if (const fbs::EscapeBlock* escaped = chunk.content_as_EscapeBlock())
       escapes_of(*escaped, source.name(), &escapes);
     else if (const fbs::MediumBlock* medium = chunk.content_as_MediumBlock();
@@ -63,9 +66,15 @@ struct PhotonReader::Impl {
     in_media_read += in_media.size();
   }
 
+  void read_samples(const fbs::SampleBlock& found, std::vector<Photon>& samples) {
+    samples_of(found, source.name(), &samples);
+    samples_read += samples.size();
+  }
+
   void read_end(const fbs::PhotonEnd& flat) {
     counts = counts_of(flat);
     check_count("photons", photons_read, counts.stored);
+    check_count("samples of camera paths", samples_read, counts.samples);
     check_count("escapes", escapes_read, counts.escapes);
     check_count("photons in media", in_media_read, counts.in_media);
     char extra;
@@ -94,7 +103,7 @@ struct PhotonReader::Impl {
   size_t chunk_size = 0;
   PhotonHeader header;
   PhotonCounts counts;
-  uint64_t photons_read = 0, escapes_read = 0, in_media_read = 0;
+  uint64_t photons_read = 0, samples_read = 0, escapes_read = 0, in_media_read = 0;
   std::vector<Escape> unwanted_escapes;
   std::vector<MediumPhoton> unwanted_in_media;
   bool ended = false;

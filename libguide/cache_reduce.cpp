@@ -102,6 +102,7 @@ GuideCache reduce(GuideCache cache, const CacheReduceOptions& options,
   if (summary) *summary = {reduction, media};
   cache.statistics.clear();
   cache.training.clear();
+  cache.sources.clear();
   parallel_for(cache.cells.size(), [&](size_t i) {
     CacheCell& cell = cache.cells[i];
     const std::span<const GaussianComponent> mixture(cache.components.data() + cell.first_component,

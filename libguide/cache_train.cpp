@@ -35,6 +35,15 @@ void check_previous(const GuideCache& cache, Quantity stream) {
     fail("the previous cache is damaged ({}): train from the photons again", fault);
 }
 
+// A stream that does not say how many are to come is taken to be like those before.
+double expected_photons(const PhotonStreamInfo& stream, const GuideCache& previous) {
+  const double before = static_cast<double>(previous.photons);
+  if (stream.expected > 0) return before + static_cast<double>(stream.expected);
+  if (previous.emitted == 0) return 0;
+  return before / static_cast<double>(previous.emitted) *
+         static_cast<double>(previous.emitted + stream.emitted);
+}
+
 }  // namespace
 
 void CacheTrainOptions::validate() const {
@@ -69,14 +78,18 @@ struct CacheTrainer::Impl {
 
  private:
   void start_cache(const PhotonStreamInfo& stream, const GuideCache& previous);
+  double photons_per_particle() const {  // as far as is known; 0 also without particles
+    return cache_.emitted > 0 ? expected_photons_ / static_cast<double>(cache_.emitted) : 0;
+  }
   SurfaceRules surface_rules(const CacheTrainOptions& options) const;
   MediumRules medium_rules(const CacheTrainOptions& options) const;
   void finish_surfaces();
   void finish_media();
   void summarise(CacheTrainSummary& summary) const;
 
-  GuideCache cache_;  // without its cells while they are in training
-  uint64_t emitted_;  // particles of the stream
+  GuideCache cache_;             // without its cells while they are in training
+  uint64_t emitted_;             // particles of the stream
+  double expected_photons_ = 0;  // of the whole training when it is done; 0: not known
   BlockTrainer<Photon, TrainingTree, SurfaceRules> surfaces_;
   BlockTrainer<MediumPhoton, MediumTree, MediumRules> media_;
   EscapeMap escape_map_;
@@ -91,7 +104,8 @@ struct CacheTrainer::Impl {
 CacheTrainer::Impl::Impl(const CacheTrainOptions& options, const PhotonStreamInfo& stream,
                          GuideCache previous)
     : emitted_(stream.emitted) {
-  if (stream.emitted == 0) fail("the photon stream does not say how many particles were emitted");
+  if (stream.emitted == 0 && stream.paths == 0)
+    fail("the photon stream does not say how many particles were emitted");
   const bool goes_on = !previous.nodes.empty() || !previous.medium.nodes.empty();
   if (goes_on) check_previous(previous, stream.quantity);
   start_cache(stream, previous);
@@ -113,7 +127,9 @@ void CacheTrainer::Impl::start_cache(const PhotonStreamInfo& stream, const Guide
     fail("the bounds of the scene in the photon stream are empty or not finite");
   cache_.quantity = stream.quantity;
   cache_.emitted = previous.emitted + stream.emitted;
+  cache_.paths = previous.paths + stream.paths;
   cache_.passes = previous.passes + 1;
+  expected_photons_ = expected_photons(stream, previous);
   clock_.photons_before = static_cast<double>(previous.photons);
   clock_.particles_before = static_cast<double>(previous.emitted);
   cache_.medium.emitted = previous.medium.emitted;
@@ -128,7 +144,8 @@ SurfaceRules CacheTrainer::Impl::surface_rules(const CacheTrainOptions& options)
           cache_.quantity,
           {static_cast<size_t>(options.photons_per_cell), static_cast<size_t>(options.max_cells),
            options.normal_spread, kMinExtent * 2 * scene.radius()},
-          {options.components, options.direct == DirectLight::drop, options.prior}};
+          {options.components, options.direct == DirectLight::drop, options.prior, cache_.paths > 0,
+           photons_per_particle()}};
 }
 
 MediumRules CacheTrainer::Impl::medium_rules(const CacheTrainOptions& options) const {
@@ -173,7 +190,8 @@ void CacheTrainer::Impl::finish_surfaces() {
   TrainingTree& tree = surfaces_.tree();
   tree.restate_exposure(clock_);
   tree.lend_mixtures();
-  tree.store(cache_, surfaces_.rules().tree, clock_.photons / clock_.particles);
+  tree.store(cache_, surfaces_.rules().tree,
+             clock_.particles > 0 ? clock_.photons / clock_.particles : 0);
 }
 
 // A cache of a scene without media gets no cell of them.

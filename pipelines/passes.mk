@@ -1,13 +1,18 @@
 # Rules of the training: photons, and the cache trained on them, $(OUT)/scene.cache. Included by
 # rules.mk, which lists the variables. `training` is the stages whose time is that of the training.
 
+traced_lights = --count $(PHOTONS)
+traced_camera = --count 0 --paths $(PATHS)
+traced_both = --count $(PHOTONS) --paths $(PATHS)
+traced := $(or $(traced_$(TRAIN_FROM)),$(error TRAIN_FROM is $(TRAIN_FROM): give lights, camera or both))
+
 ifeq ($(PHOTONS),auto)
 $(if $(filter-out 0,$(PASSES)),$(error PHOTONS=auto decides on the passes itself: leave PASSES at 0))
 $(eval $(call stamp,train-until,$(TRAIN_FOR) $(SIZE)))
 $(OUT)/scene.cache $(OUT)/photon-trace.json $(OUT)/cache-train.json &: $(SCENE) $(SCENE_INPUTS) \
     $(foreach s,photon-trace cache-train passes train-until,$(OUT)/.options/$(s)) \
     $(foreach t,photon-trace cache-train render image-compare,$(BIN)/$(t))
-	BIN='$(BIN)' SIZE='$(SIZE)' SEED='$(SEED)' QUIET='$(QUIET)' \
+	BIN='$(BIN)' SIZE='$(SIZE)' SEED='$(SEED)' QUIET='$(QUIET)' TRAIN_FROM='$(TRAIN_FROM)' \
 	  PHOTON_TRACE_FLAGS='$(PHOTON_TRACE_FLAGS)' CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS)' \
 	  $(ROOT)/train-until.sh $(OUT) $(TRAIN_FOR) $(SCENE) $(SCENE_FLAGS)
 
@@ -19,7 +24,7 @@ else ifeq ($(PASSES),0)
 $(OUT)/scene.photons $(OUT)/photon-trace.json &: $(SCENE) $(SCENE_INPUTS) \
     $(OUT)/.options/photon-trace $(BIN)/photon-trace
 	$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $(OUT)/scene.photons \
-	  --count $(PHOTONS) --seed $(SEED) --stats $(OUT)/photon-trace.json \
+	  $(traced) --seed $(SEED) --stats $(OUT)/photon-trace.json \
 	  $(PHOTON_TRACE_FLAGS) $(QUIET)
 
 $(OUT)/scene.cache $(OUT)/cache-train.json &: $(OUT)/scene.photons $(OUT)/.options/cache-train \
@@ -36,6 +41,10 @@ pass_numbers := $(shell seq $(PASSES))
 before = $(shell expr $(1) - 1)
 # $(call go_on,pass,suffix): the cache of the pass before, none for the first.
 go_on = $(if $(filter 1,$(1)),,$(OUT)/pass-$(call before,$(1)).$(2))
+
+# What guides the photons and the camera paths of a pass.
+importance_of = $(if $(filter camera,$(TRAIN_FROM)),,$(OUT)/pass-$(1).importance.cache)
+guides_paths = $(if $(filter lights,$(TRAIN_FROM)),,$(call go_on,$(1),cache))
 
 # $(call pass_rules,pass): importons, the importance cache that goes on with them, photons guided by
 # it, the radiance cache that goes on with them. Each is a file, so training stops and goes on.
@@ -55,10 +64,11 @@ $(OUT)/pass-$(1).importance.cache $(OUT)/importance-train-$(1).json &: \
 	  $(CACHE_TRAIN_FLAGS) $(QUIET)
 
 $(OUT)/pass-$(1).photons $(OUT)/photon-trace-$(1).json &: $(SCENE) $(SCENE_INPUTS) \
-    $(OUT)/pass-$(1).importance.cache $(OUT)/.options/photon-trace $(BIN)/photon-trace
+    $(call importance_of,$(1)) $(call guides_paths,$(1)) $(OUT)/.options/photon-trace \
+    $(BIN)/photon-trace
 	$$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $(OUT)/pass-$(1).photons \
-	  --importance $(OUT)/pass-$(1).importance.cache --count $(PHOTONS) --seed $(SEED) \
-	  --pass $(1) --stats $(OUT)/photon-trace-$(1).json $(PHOTON_TRACE_FLAGS) $(QUIET)
+	  $(addprefix --importance ,$(call importance_of,$(1))) \
+	  $(addprefix --cache ,$(call guides_paths,$(1))) $(traced) --seed $(SEED) --pass $(1) --stats $(OUT)/photon-trace-$(1).json $(PHOTON_TRACE_FLAGS) $(QUIET)
 
 $(OUT)/pass-$(1).cache $(OUT)/cache-train-$(1).json &: $(OUT)/pass-$(1).photons \
     $(call go_on,$(1),cache) $(OUT)/.options/cache-train $(BIN)/cache-train
@@ -95,6 +105,6 @@ $(OUT)/passes.svg: $(OUT)/passes.csv $(BIN)/chart
 	$(LAUNCH) $(BIN)/chart $< -o $@ --x pass --linear x \
 	  --title "$(NAME): product guiding, $(PASSES_SPP) samples per pixel" $(QUIET)
 
-training := $(foreach i,$(pass_numbers),\
-  importon-trace-$(i) importance-train-$(i) photon-trace-$(i) cache-train-$(i))
+training := $(foreach i,$(pass_numbers),$(if $(call importance_of,$(i)),\
+  importon-trace-$(i) importance-train-$(i)) photon-trace-$(i) cache-train-$(i))
 endif

@@ -26,8 +26,12 @@
 # PHOTONS          particles to emit in one pass; auto: passes of more and more, until another would
 #                  not pay for itself in a render of TRAIN_FOR seconds (train-until.sh)
 # TRAIN_FOR        the longest of TIMES
+# TRAIN_FROM       lights: PHOTONS teach the cache; camera: PATHS do, paths from the camera that carry
+#                  radiance back; both: both, in one cache
+# PATHS            camera paths of one pass                                   a quarter of PHOTONS
 # PASSES           passes in which importons train an importance cache and photons guided by it the
-#                  radiance cache, each going on from the pass before; 0: photons unguided, once
+#                  radiance cache, each going on from the pass before; camera paths are guided by
+#                  the radiance cache of the pass before; 0: unguided, once
 # IMPORTONS        importons of one pass
 # PASSES_SPP       samples per pixel of the renders of passes-chart
 # TIMES            seconds after which a render writes its image and figures; one render of the
@@ -51,6 +55,8 @@ SIZE ?= 320x180
 SEED ?= 1
 SEEDS ?= $(SEED)
 PHOTONS ?= 1000000
+TRAIN_FROM ?= lights
+PATHS ?= $(if $(filter auto,$(PHOTONS)),auto,$(shell expr $(PHOTONS) / 4))
 PASSES ?= 0
 IMPORTONS ?= 250000
 PASSES_SPP ?= 32
@@ -80,7 +86,8 @@ $(OUT)/.options/$(1): FORCE
 	@if cmp -s $$@.new $$@; then rm $$@.new; else mv $$@.new $$@; fi
 endef
 $(eval $(call stamp,brdf-fit,$(SCENE_FLAGS) $(SEED) $(BRDF_FIT_FLAGS)))
-$(eval $(call stamp,photon-trace,$(SCENE_FLAGS) $(SEED) $(PHOTONS) $(PHOTON_TRACE_FLAGS)))
+$(eval $(call stamp,photon-trace,$(SCENE_FLAGS) $(SEED) $(PHOTONS) $(PHOTON_TRACE_FLAGS)$(if \
+  $(filter-out lights,$(TRAIN_FROM)), $(TRAIN_FROM) $(PATHS))))
 $(eval $(call stamp,importons,$(SCENE_FLAGS) $(SEED) $(IMPORTONS)))
 $(eval $(call stamp,passes,$(PASSES)))
 $(eval $(call stamp,passes-chart,$(PASSES_SPP)))

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Trains a cache until another pass would not pay for itself, for a render of so many seconds.
 #   train-until.sh FOLDER SECONDS SCENE [-D name=value ...]
-# Environment: BIN SIZE SEED FIRST_PHOTONS MOST_PHOTONS PHOTON_TRACE_FLAGS CACHE_TRAIN_FLAGS QUIET
+# Environment: BIN SIZE SEED FIRST_PHOTONS MOST_PHOTONS TRAIN_FROM PHOTON_TRACE_FLAGS
+#   CACHE_TRAIN_FLAGS QUIET
 #
 # Each pass traces twice the photons of the one before and goes on with its cache. Two small renders
 # that differ by their seed tell the error that the cache leaves, times the time of a sample. What
@@ -20,8 +21,17 @@ mkdir -p "$work"
 number() { jq -r ".$2" "$1"; }
 calculate() { awk "BEGIN { printf \"%.6g\", ($*) }"; }
 
+# What a pass traces: photons, a quarter as many camera paths guided by the pass before, or both.
+traced() {
+  local count=$photons
+  [[ ${TRAIN_FROM:-lights} == camera ]] && count=0
+  echo --count "$count"
+  [[ ${TRAIN_FROM:-lights} == lights ]] && return
+  echo --paths "$((photons / 4))" ${previous/--in/--cache}
+}
+
 train_pass() {
-  "$BIN/photon-trace" "${scene[@]}" -o "$work/pass.photons" --count "$photons" --seed "$SEED" \
+  "$BIN/photon-trace" "${scene[@]}" -o "$work/pass.photons" $(traced) --seed "$SEED" \
     --pass "$pass" --stats "$work/photons-$pass.json" ${PHOTON_TRACE_FLAGS:-} ${QUIET:-}
   "$BIN/cache-train" --photons "$work/pass.photons" $previous -o "$work/pass-$pass.cache" \
     --stats "$work/train-$pass.json" ${CACHE_TRAIN_FLAGS:-} ${QUIET:-}
@@ -47,11 +57,13 @@ probe() {
 }
 
 scene=("$@")
-previous= error= next=1 tracing=0 training=0 emitted=0 stored=0
+previous= error= next=1 tracing=0 training=0 emitted=0 stored=0 paths=0 samples=0
 echo pass,photons,seconds,error,gain,predicted_gain > "$work/training.csv"
 for ((pass = 1; ; ++pass, photons *= 2)); do
   train_pass
-  ((emitted += photons, stored += $(number "$work/photons-$pass.json" stored)))
+  for what in emitted stored paths samples; do
+    (($what += $(number "$work/photons-$pass.json" $what))) || true
+  done
   last=$error error=$(probe)
   training=$(calculate "$training + $(number "$work/probe-1.json" seconds) + \
     $(number "$work/probe-2.json" seconds)")
@@ -64,7 +76,8 @@ for ((pass = 1; ; ++pass, photons *= 2)); do
   break
 done
 
-jq ".seconds = $tracing | .emitted = $emitted | .stored = $stored" "$work/photons-$pass.json" \
+jq ".seconds = $tracing | .emitted = $emitted | .stored = $stored | .paths = $paths |
+  .samples = $samples" "$work/photons-$pass.json" \
   > "$folder/photon-trace.json"
 jq ".seconds = $training" "$work/train-$pass.json" > "$folder/cache-train.json"
 mv "$work/training.csv" "$folder/training.csv"

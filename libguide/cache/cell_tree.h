@@ -125,7 +125,7 @@ void CellTree<Cell>::split(uint32_t cell, const CellSplit& split, Cell lower, Ce
 
 template <typename Cell>
 void CellTree<Cell>::restate_exposure(const TrainingClock& clock) {
-  if (clock.particles_before <= 0) return;
+  if (!clock.needs_restating()) return;
   for (Cell& cell : cells_) {
     const double share = clock.exposure(cell.born()) / clock.particles;
     cell.restate_birth(clock.photons * std::clamp(1 - share, 0.0, 1.0));

@@ -18,6 +18,12 @@ bool is_valid(const Color& power, float emitted, float limit) {
   return weight > 0 && weight < limit && (power >= 0).all();
 }
 
+// What a camera path did not find counts too.
+bool is_valid(const Photon& photon, float emitted, float limit) {
+  if (photon.from == TracedFrom::lights) return is_valid(photon.power, emitted, limit);
+  return (photon.power >= 0).all() && luminance(photon.power) < limit;
+}
+
 constexpr float kMaxWeight = 1e36f;  // leaves room for the sums of a batch
 
 }  // namespace
@@ -30,7 +36,7 @@ Bounds accepted_bounds(Bounds scene) {
 }
 
 PhotonVerdict SurfaceRules::judge(const Photon& photon) const {
-  const bool valid = is_valid(photon.power, emitted, kMaxWeight) && is_unit(photon.normal) &&
+  const bool valid = is_valid(photon, emitted, kMaxWeight) && is_unit(photon.normal) &&
                      is_unit(photon.direction) && contains(accepted, photon.position);
   const bool dropped = valid && cell.drop_direct && photon.path_depth == 0;
   return {valid, valid && !(dropped && quantity == Quantity::importance), dropped};

@@ -30,6 +30,16 @@ constexpr float kOwnSidePhotons = 8;
 constexpr uint32_t kOwnExtentPhotons = 64;
 constexpr float kRoom = 1.25f;
 
+// Of photons as CellTraining has it, W; of what camera paths found, W/m^2.
+float weight_of(const Photon& photon, float emitted) {
+  const float power = luminance(photon.power);
+  return photon.from == TracedFrom::lights ? power * emitted : power;
+}
+
+bool drops(const Photon& photon, const CellTrainingOptions& options) {
+  return options.drop_direct && photon.path_depth == 0;
+}
+
 }  // namespace
 
 std::vector<GaussianComponent> GaussianLobes::fit(std::span<const WeightedPoint> batch, int count,
@@ -55,20 +65,34 @@ size_t GaussianLobes::grow(std::span<GaussianComponent> components,
 
 size_t TrainingCell::absorb(std::span<const Photon> block, std::span<const uint32_t> indices,
                             float emitted, const CellTrainingOptions& options) {
-  MomentBatch moments(training_, block[indices.front()]);
-  for (uint32_t i : indices) {
-    moments.add(block[i], luminance(block[i].power) * emitted);
-    own_.extend(block[i].position);
-  }
-  own_count_ += static_cast<uint32_t>(indices.size());
-  moments.merge_into(training_);
+  locate(block, indices, emitted, options);
   if (on_other_side()) forget();
   size_t capped = 0;
   for (uint32_t i : indices) {
-    if (!guides(block[i], options)) continue;
-    if (wait(block[i].direction, luminance(block[i].power) * emitted)) capped += update(options);
+    const Photon& photon = block[i];
+    if (!guides(photon, options)) continue;
+    const float factor = options.mixes ? evidence_.factor(photon.from) : 1;
+    if (wait(photon.direction, weight_of(photon, emitted) * factor)) capped += update(options);
   }
   return capped;
+}
+
+// Where the light of the cell is, and how much.
+void TrainingCell::locate(std::span<const Photon> block, std::span<const uint32_t> indices,
+                          float emitted, const CellTrainingOptions& options) {
+  MomentBatch moments(training_, block[indices.front()]);
+  for (uint32_t i : indices) {
+    const Photon& photon = block[i];
+    const float weight = weight_of(photon, emitted);
+    const bool guided = weight > 0 && !drops(photon, options);
+    if (options.mixes) evidence_.add(photon, weight, guided);
+    const bool from_lights = photon.from == TracedFrom::lights;
+    if (!from_lights && !guided) continue;
+    moments.add(photon, from_lights ? weight : 0);
+    own_.extend(photon.position);
+    ++own_count_;
+  }
+  moments.merge_into(training_);
 }
 
 // A child may lie on the other side of the wall that its parent knew.
@@ -83,7 +107,7 @@ size_t TrainingCell::flush(const CellTrainingOptions& options) {
 }
 
 bool TrainingCell::guides(const Photon& photon, const CellTrainingOptions& options) const {
-  if (options.drop_direct && photon.path_depth == 0) return false;
+  if (drops(photon, options) || is_black(photon.power)) return false;
   return training_.step == 0 || photon.normal.dot(record_.normal) >= kMinNormalCosine;
 }
 
@@ -130,6 +154,7 @@ TrainingCell TrainingCell::child(const CellSplit& split, bool upper, double now,
   if (split.by_normal()) return child;
   (upper ? child.inherited_.min : child.inherited_.max)[split.axis] = split.value;
   inherit_irradiance(child.training_, now, min_area);
+  child.evidence_ = evidence_.share(std::min(0.5, kInheritedPhotons / training_.count));
   child.inherit_as_child(*this, options);
   return child;
 }
@@ -162,16 +187,25 @@ void TrainingCell::inherit_irradiance(CellTraining& child, double now, double mi
   child.inherited_area *= 0.5f;
   const double photons_of_all = (now - training_.born) / training_.count;  // per photon of the cell
   const double exposure = 2 * kInheritedPhotons * photons_of_all;
-  child.flux = irradiance(now, min_area) * child.inherited_area * exposure;
+  child.flux = photon_irradiance(now, min_area) * child.inherited_area * exposure;
   child.born = now - exposure;
 }
 
-float TrainingCell::irradiance(double now, double min_area) const {
+float TrainingCell::photon_irradiance(double now, double min_area) const {
   const bool own = training_.count >= kOwnAreaPhotons || training_.inherited_area <= 0;
   const double area = own ? photon_area(training_) : training_.inherited_area;
   const double spread = std::max(area, min_area) * (now - training_.born);
   const double limit = std::numeric_limits<float>::max();
   return spread > 0 ? static_cast<float>(std::min(training_.flux / spread, limit)) : 0.0f;
+}
+
+void TrainingCell::balance_sources(double now, double min_area, double photons_per_particle) {
+  evidence_.balance(photon_irradiance(now, min_area) * photons_per_particle);
+}
+
+float TrainingCell::irradiance(double now, double min_area, double photons_per_particle) const {
+  const double by_photons = photon_irradiance(now, min_area) * photons_per_particle;
+  return evidence_.irradiance(by_photons, photons_per_particle > 0 && now > training_.born);
 }
 
 }  // namespace waylight

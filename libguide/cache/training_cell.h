@@ -1,6 +1,7 @@
 #pragma once
 // One cell of an illumination cache while it is trained.
 
+#include "libguide/cache/cell_evidence.h"
 #include "libguide/cache/cell_split.h"
 #include "libguide/cache/online_mixture.h"
 #include "libguide/directional/expectation_maximization.h"
@@ -14,6 +15,8 @@ struct CellTrainingOptions {
   int components = 8;
   bool drop_direct = false;
   MixturePrior prior;
+  bool mixes = false;               // camera paths are among the photons, or were
+  double photons_per_particle = 0;  // of the whole training, as far as is known; where it mixes
 };
 
 // Gaussians over the disk of a cell's mean normal.
@@ -35,15 +38,18 @@ struct GaussianLobes {
                      std::span<ComponentStatistics> statistics, size_t count, size_t wanted);
 };
 
-// About 1.7 KiB; the memory of the training is this per cell and nothing per photon.
+// About 1.8 KiB; the memory of the training is this per cell and nothing per photon.
 class TrainingCell : private OnlineMixture<GaussianLobes> {
  public:
   TrainingCell() = default;
   // A cell of a finished training that goes on.
   TrainingCell(const CacheCell& cell, const CellTraining& training,
                std::span<const GaussianComponent> components,
-               std::span<const ComponentStatistics> statistics, const CellReach& reach)
-      : OnlineMixture(cell, training, components, statistics), inherited_(box(reach)) {}
+               std::span<const ComponentStatistics> statistics, const CellReach& reach,
+               const CellEvidence& evidence)
+      : OnlineMixture(cell, training, components, statistics),
+        evidence_(evidence),
+        inherited_(box(reach)) {}
 
   // The photons of this cell in one block: block[indices[i]] in that order. Returns how many
   // weighed too much.
@@ -65,9 +71,13 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   // evidence, in (0, 1], comes with it.
   void inherit_mixture(const TrainingCell& from, float share);
 
-  // Weight per area and photon of the stream, with a few photons' worth of what its parent knew.
-  // Photons on less than min_area count as spread over it.
-  float irradiance(double now, double min_area) const;
+  // How photons and samples of camera paths are weighed from now on; see irradiance().
+  void balance_sources(double now, double min_area, double photons_per_particle);
+
+  // W/m^2, with a few photons' worth of what its parent knew: weight of photons per area and photon
+  // of the training, times photons_per_particle, and what camera paths found. Photons on less than
+  // min_area count as spread over it.
+  float irradiance(double now, double min_area, double photons_per_particle) const;
 
   const Vec3& centre() const { return training_.position_mean; }
   // Of its own photons once there are enough, and of those of the cells that it was made from.
@@ -77,12 +87,16 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   void restate_birth(double born) { training_.born = born; }
 
   const CacheCell& cell() const { return record_; }
+  const CellEvidence& evidence() const { return evidence_; }  // where CellTrainingOptions::mixes
   using OnlineMixture::components;
   using OnlineMixture::statistics;
   using OnlineMixture::training;
 
  private:
+  void locate(std::span<const Photon> block, std::span<const uint32_t> indices, float emitted,
+              const CellTrainingOptions& options);
   bool guides(const Photon& photon, const CellTrainingOptions& options) const;
+  float photon_irradiance(double now, double min_area) const;
   size_t update(const CellTrainingOptions& options);
   bool on_other_side() const;
   void turn_to_photons();
@@ -91,6 +105,7 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   static Bounds box(const CellReach& reach);
   Bounds extent() const;
 
+  CellEvidence evidence_;
   Bounds own_;  // of the photons since the cell was made, in this training
   Bounds inherited_ = {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
   uint32_t own_count_ = 0;

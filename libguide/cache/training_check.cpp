@@ -83,10 +83,22 @@ std::string check_part(const Cache& cache) {
   return {};
 }
 
+std::string check_sources(const GuideCache& cache) {
+  if (cache.sources.size() != (cache.paths > 0 ? cache.cells.size() : 0))
+    return "what camera paths found does not belong to the cells";
+  for (const CellSources& s : cache.sources)
+    if (!finite_and_not_negative({s.light_all, s.light_guided, s.light_guided2, s.camera_all,
+                                  s.camera_guided, s.camera_guided2, s.camera_samples,
+                                  s.camera_looks}))
+      return "a sum of what camera paths found is negative or not finite";
+  return {};
+}
+
 }  // namespace
 
 std::string check_training(const GuideCache& cache) {
   if (std::string fault = check_part(cache); !fault.empty()) return fault;
+  if (std::string fault = check_sources(cache); !fault.empty()) return fault;
   const std::string fault = check_part(cache.medium);
   return fault.empty() ? fault : "media: " + fault;
 }

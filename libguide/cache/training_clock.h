@@ -9,6 +9,11 @@ struct TrainingClock {
   double photons = 0, particles = 0;
   double photons_before = 0, particles_before = 0;
 
+  // False for a first stream, and as long as there are only camera paths.
+  bool needs_restating() const {
+    return particles > 0 && (particles_before > 0 || photons_before > 0);
+  }
+
   // Particles since a cell was made, `born` in photons: streams differ in photons per particle.
   double exposure(double born) const {
     const double stream = photons - photons_before;

@@ -24,15 +24,25 @@ double photons_before_split(const TreeOptions& tree, double now) {
   return static_cast<double>(tree.photons_per_cell) * std::sqrt(std::max(1.0, now / kFineTraining));
 }
 
+// A cell that was made when no photons came any more, but samples of camera paths, knows no flux.
+CellTraining training_of(const GuideCache& previous, size_t i) {
+  CellTraining training = previous.training[i];
+  if (training.born >= static_cast<double>(previous.photons)) training.flux = 0;
+  return training;
+}
+
 std::deque<TrainingCell> cells_of(const GuideCache& previous) {
   std::deque<TrainingCell> cells;
   for (size_t i = 0; i < previous.cells.size(); ++i) {
     const CacheCell& cell = previous.cells[i];
+    const CellTraining training = training_of(previous, i);
     cells.emplace_back(
-        cell, previous.training[i],
+        cell, training,
         std::span(previous.components).subspan(cell.first_component, cell.component_count),
         std::span(previous.statistics).subspan(cell.first_component, cell.component_count),
-        previous.reaches.empty() ? CellReach() : previous.reaches[i]);
+        previous.reaches.empty() ? CellReach() : previous.reaches[i],
+        previous.sources.empty() ? CellEvidence(cell, training)
+                                 : CellEvidence(previous.sources[i]));
   }
   return cells;
 }
@@ -55,6 +65,10 @@ void TrainingTree::split_full_cells(const TreeOptions& tree, const CellTrainingO
       [&](const TrainingCell& cell, const CellSplit& split, bool upper) {
         return cell.child(split, upper, now, sqr(tree.min_extent), options);
       });
+  if (!options.mixes) return;
+  parallel_for(size(), [&](size_t i) {
+    (*this)[i].balance_sources(now, sqr(tree.min_extent), options.photons_per_particle);
+  });
 }
 
 void TrainingTree::lend_mixtures() {
@@ -67,22 +81,23 @@ void TrainingTree::lend_mixtures() {
 }
 
 void TrainingTree::store(GuideCache& cache, const TreeOptions& tree,
-                         double irradiance_scale) const {
+                         double photons_per_particle) const {
   cache.nodes = nodes();
   cache.cells.clear();
   cache.reaches.clear();
   cache.training.clear();
   cache.components.clear();
   cache.statistics.clear();
+  cache.sources.clear();
   const double now = static_cast<double>(cache.photons);
   for (const TrainingCell& trained : cells()) {
     CacheCell cell = trained.cell();
-    cell.irradiance =
-        static_cast<float>(trained.irradiance(now, sqr(tree.min_extent)) * irradiance_scale);
+    cell.irradiance = trained.irradiance(now, sqr(tree.min_extent), photons_per_particle);
     cell.first_component = static_cast<uint32_t>(cache.components.size());
     cache.cells.push_back(cell);
     cache.reaches.push_back(trained.reach());
     cache.training.push_back(trained.training());
+    if (cache.paths > 0) cache.sources.push_back(trained.evidence().sums());
     cache.components.insert(cache.components.end(), trained.components().begin(),
                             trained.components().end());
     cache.statistics.insert(cache.statistics.end(), trained.statistics().begin(),

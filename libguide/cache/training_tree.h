@@ -23,14 +23,15 @@ class TrainingTree : public CellTree<TrainingCell> {
     return CellTree::find(photon.position, photon.normal);
   }
 
-  // Splits the cells that saw more than their photons. now: photons of the whole training so far.
+  // Splits the cells that saw more than their photons, and balances the kinds of them. now: photons
+  // of the whole training so far.
   void split_full_cells(const TreeOptions& tree, const CellTrainingOptions& options, double now);
 
   // Cells without a mixture inherit that of a relative nearby whose surface faces the same way.
   void lend_mixtures();
 
-  // irradiance_scale: photons per emitted particle, 1/J to W of TrainingCell::irradiance.
-  void store(GuideCache& cache, const TreeOptions& tree, double irradiance_scale) const;
+  // photons_per_particle: of the whole training; 0 where no particles were emitted.
+  void store(GuideCache& cache, const TreeOptions& tree, double photons_per_particle) const;
 };
 
 }  // namespace waylight

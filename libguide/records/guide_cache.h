@@ -60,6 +60,17 @@ struct CellTraining {
   double weight_sum = 0, weight_sum2 = 0;
 };
 
+// What photons and camera paths each say of a cell, where there are camera paths: sums of weights,
+// of the weights that the mixture takes (as a rule those of indirect light), and of the squares of
+// these; how many samples of camera paths the mixture took, and how many looked for light. A
+// sample's weight is the luminance of its irradiance. Of those since the cell was made, and of a few
+// of its parent's.
+struct CellSources {
+  double light_all = 0, light_guided = 0, light_guided2 = 0;
+  double camera_all = 0, camera_guided = 0, camera_guided2 = 0;
+  float camera_samples = 0, camera_looks = 0;
+};
+
 // Where "light" and "photons" are said of a cache, importance and importons are meant where it
 // holds importance: its irradiance is then int W cos, 1/m^2.
 struct GuideCache {
@@ -68,12 +79,14 @@ struct GuideCache {
   uint64_t emitted = 0;  // particles behind the whole training
   uint32_t passes = 0;   // photon streams consumed
   uint64_t photons = 0;  // photons in these streams, refused ones included
+  uint64_t paths = 0;    // camera paths whose samples were among the photons
   std::vector<CacheNode> nodes;
   std::vector<CacheCell> cells;
   std::vector<CellReach> reaches;  // by cell; empty: all have any
   std::vector<GaussianComponent> components;
   std::vector<ComponentStatistics> statistics;  // parallel to components, or empty
   std::vector<CellTraining> training;           // parallel to cells, or empty
+  std::vector<CellSources> sources;  // parallel to cells, or empty: there were no camera paths
   // Importance that leaves the scene, as EscapeMap has it: the bins of direction that anything went
   // to, in increasing order, and the luminance of the importons in each position cell of each.
   std::vector<uint32_t> escape_bins;

@@ -1,5 +1,6 @@
 #include "libguide/transport/path_tracer.h"
 
+#include "libguide/transport/mis_weight.h"
 #include "libguide/transport/path_state.h"
 #include "libguide/transport/split_sampler.h"
 
@@ -10,13 +11,6 @@ constexpr int kUnlimitedDepth = 1 << 20;  // bound of "no limit": roulette ends 
 constexpr int kLongPath = 100;            // edges; beyond, roulette is by throughput as well
 constexpr float kMinSurvival = 0.05f;
 constexpr uint32_t kNoCell = ~0u;
-
-// Power heuristic with exponent two for one sample of each technique [Veach 1997, 9.2.4].
-float mis_weight(float pdf, float other) {
-  if (!(pdf < 1e18f)) return 1;
-  const float ratio = other / pdf;
-  return 1 / (1 + ratio * ratio);
-}
 
 uint32_t cell_of(const GuidingCaches& caches, const DirectionSampler& directions) {
   return directions.cell() ? caches.index(*directions.cell()) : kNoCell;

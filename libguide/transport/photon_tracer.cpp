@@ -43,9 +43,7 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonTracerOptions& option
     prepare_media();
     return;
   }
-  camera_.emplace(scene.description().sensor);
-  const int named = scene.description().sensor.medium;
-  camera_medium_ = named != kNone ? named : scene.medium_at(camera_->origin());
+  camera_.emplace(scene);
   stores_escapes_ = scene.has_distant_light();
 }
 
@@ -135,16 +133,8 @@ std::optional<PhotonTracer::Particle> PhotonTracer::leave_medium(Sampler& sample
                   emission->medium};
 }
 
-// Uniform over the film, or over its crop window: each pixel is a mean over its own area, and the
-// mean of the image one over them all.
 PhotonTracer::Particle PhotonTracer::leave_camera(Sampler& sampler) const {
-  const FilmDescription& film = scene_.description().sensor.film;
-  const Vec2 u = sampler.next_2d();
-  Vec2 pixel(u.x() * film.width, u.y() * film.height);
-  if (film.crop_width > 0 && film.crop_height > 0)
-    pixel = {film.crop_x + u.x() * film.crop_width, film.crop_y + u.y() * film.crop_height};
-  return {camera_->ray(pixel, sampler.next_2d()), Color::Constant(options_.power_scale), 0,
-          camera_medium_};
+  return {camera_->ray(sampler), Color::Constant(options_.power_scale), 0, camera_->medium()};
 }
 
 PathVertex PhotonTracer::next_vertex(Particle& particle, PhotonRecords* records,

@@ -7,9 +7,9 @@
 #include "libguide/guiding/emission_guide.h"
 #include "libguide/guiding/phase_sampler.h"
 #include "libguide/records/photon.h"
-#include "libguide/scene/camera.h"
 #include "libguide/scene/medium_lights.h"
 #include "libguide/scene/scene.h"
+#include "libguide/transport/camera_start.h"
 #include "libguide/transport/path_vertex.h"
 
 namespace waylight {
@@ -65,8 +65,7 @@ class PhotonTracer {
 
   const Scene& scene_;
   PhotonTracerOptions options_;
-  std::optional<Camera> camera_;  // of importons
-  int camera_medium_ = kNone;
+  std::optional<CameraStart> camera_;  // of importons
   bool stores_escapes_ = false;
   GuidingCaches guide_;
   std::optional<EmissionGuide> emission_;

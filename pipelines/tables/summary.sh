@@ -16,7 +16,9 @@ stage() {
 
 stage brdf-fit.json '"fits      \(.entries) entries for \(.materials | length) materials, of " +
   "\(.full.entries) without --tolerance; \(.bytes | size), \(.seconds | time)"'
-stage photon-trace.json '"photons   \(.stored) of \(.emitted) particles; \(.seconds | time)"'
+stage photon-trace.json '"photons   \(.stored) of \(.emitted) particles" +
+  (if .paths > 0 then ", \(.samples) samples of \(.paths) camera paths" else "" end) +
+  "; \(.seconds | time)"'
 stage cache-train.json '"cells     \(.cells), of \(.mean_effective_samples | digits(0)) effective photons and " +
   "\(.mean_components | digits(2)) components on average; \(.seconds | time)"'
 for kind in brdf cache; do

@@ -98,6 +98,21 @@ grep -q '^bought .*product' out/gap-room/summary.txt ||
   { echo "FAIL gap-room: no summary"; cat log; ((++failures)); }
 must_run PHOTONS=auto TRAIN_FOR=0.01 TIMES=0.05
 expect "PHOTONS=auto again" ""
+
+# Training from camera paths, once, in passes and until it does not pay.
+must_run PHOTONS=30000 TIMES=0.05 METHODS=product
+must_run PHOTONS=30000 TIMES=0.05 METHODS=product TRAIN_FROM=both
+expect "camera paths too" "cache-reduce cache-train chart image-compare photon-trace render"
+must_run PHOTONS=30000 TIMES=0.05 METHODS=product TRAIN_FROM=both
+expect "camera paths again" ""
+must_run PHOTONS=30000 TIMES=0.05 METHODS=product TRAIN_FROM=camera PASSES=2
+expect "passes of camera paths" "cache-reduce cache-train chart image-compare photon-trace render"
+[[ $(grep -c -- '--cache [^ ]*pass-1.cache --count 0 --paths 7500' log) == 1 ]] ||
+  { echo "FAIL gap-room: paths of pass 2 are not guided by pass 1"; cat log; ((++failures)); }
+must_run PHOTONS=auto TRAIN_FOR=0.01 TIMES=0.05 METHODS=product TRAIN_FROM=both
+expect "PHOTONS=auto from both" "cache-reduce chart image-compare render"
+run TRAIN_FROM=nowhere && { echo "FAIL gap-room: TRAIN_FROM=nowhere is taken"; ((++failures)); }
+must_run
 touch pipelines/scenes/gap-room.xml
 must_run
 expect "a touched scene" "$everything"

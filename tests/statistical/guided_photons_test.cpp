@@ -38,7 +38,7 @@ class Flux {
         for (const Photon& p : photons) flux[box(scene.bounds(), p)] += luminance(p.power);
         stored_ += photons.size();
       };
-      trace_photons(scene, options, add, {}, {}, importance);
+      trace_photons(scene, options, add, {}, {}, {importance});
       for (int i = 0; i < kBoxes; ++i) sum_[i] += flux[i], sum2_[i] += flux[i] * flux[i];
     }
   }
@@ -115,7 +115,7 @@ TEST_F(SlowGuidedPhotons, AreManyMoreWhereTheyEnterThroughAWindow) {
         [&](std::span<const Photon> photons) {
           for (const Photon& p : photons) sum += p.normal.dot(p.position) < 0;
         },
-        {}, {}, importance);
+        {}, {}, {importance});
     return sum;
   };
   EXPECT_GT(inside(GuideCacheView(cache)), 4 * inside({}));
@@ -217,7 +217,7 @@ TEST(GuidedPhotons, AreTheSameAtAnyNumberOfThreads) {
         [&](std::span<const Photon> photons) {
           for (const Photon& p : photons) all.push_back(p.position.sum() + p.power.sum());
         },
-        {}, {}, GuideCacheView(cache));
+        {}, {}, {GuideCacheView(cache)});
     return all;
   };
   EXPECT_EQ(positions(1), positions(2));

@@ -132,6 +132,7 @@ Json describe_cache(const std::string& path) {
                {"particles", cache.emitted},
                {"photons", cache.photons},
                {"nodes", cache.nodes.size()}});
+  if (cache.paths > 0) info["paths"] = cache.paths;
   add_cells(info, cache);
   if (!cache.escape_bins.empty()) info["escape_bins"] = cache.escape_bins.size();
   info["training"] = describe_training(cache);
@@ -163,13 +164,15 @@ struct PhotonTally {
 
 Json describe_photons(const std::string& path, const ToolRun& run) {
   PhotonReader reader(path);
-  PhotonTally tally, medium_tally;
+  PhotonTally tally, medium_tally, sample_tally;
   uint64_t done = 0;
   std::vector<MediumPhoton> in_media;
   for (std::vector<Photon> photons; reader.read(&photons, nullptr, &in_media);) {
     run.stop_if_interrupted();
     run.control.progress(double(done += photons.size() + in_media.size()), 0, "photons");
-    for (const Photon& photon : photons) tally.add(photon.path_depth, photon.power);
+    for (const Photon& photon : photons)
+      (photon.from == TracedFrom::lights ? tally : sample_tally)
+          .add(photon.path_depth, photon.power);
     for (const MediumPhoton& photon : in_media) medium_tally.add(photon.path_depth, photon.weight);
   }
   Json info = head(path, "photons");
@@ -186,6 +189,11 @@ Json describe_photons(const std::string& path, const ToolRun& run) {
                {"too_deep", c.too_deep},
                {"invalid", c.invalid},
                {"depths", tally.json("power")}});
+  if (reader.header().stream.paths > 0) {
+    info["paths"] = c.paths;
+    info["samples"] = c.samples;
+    info["depths_of_samples"] = sample_tally.json("irradiance");
+  }
   if (reader.header().stream.media) {
     info["in_media"] = c.in_media;
     info["depths_in_media"] = medium_tally.json("weight");

@@ -101,9 +101,12 @@ void report_media(const ToolRun& run, const MediumTrainSummary& s) {
                         format_bytes(double(s.bytes))));
 }
 
-void report(const ToolRun& run, Quantity quantity, const CacheTrainSummary& s) {
+void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrainSummary& s) {
   const double photons = static_cast<double>(s.photons + s.media.photons);
-  const char* particles = quantity == Quantity::radiance ? "photons" : "importons";
+  const char* particles = stream.quantity == Quantity::importance ? "importons"
+                          : stream.paths == 0                     ? "photons"
+                          : stream.emitted == 0                   ? "samples of camera paths"
+                                                : "photons and samples of camera paths";
   run.print(fmt::format("{} {} in {:.1f} s ({}/s)", format_count(photons), particles, s.seconds,
                         format_count(photons / std::max(s.seconds, 1e-9))));
   run.print(
@@ -137,7 +140,7 @@ void cache_train(const ToolRun& run, const ToolInfo& tool, const CacheTrainArgum
   file.provenance = provenance(run, tool, arguments, reader);
   run.stop_if_interrupted();
   write_cache(arguments.output, file);
-  report(run, file.cache.quantity, summary);
+  report(run, header.stream, summary);
   run.write_stats(stats_of(file.provenance, file.cache.quantity, summary));
 }
 

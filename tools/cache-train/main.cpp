@@ -16,6 +16,8 @@ mixture over the directions that light comes from, by stepwise EM, in one pass o
 Memory grows with the cells and never with the photons. In media a tree splits space alone; its cells
 learn the fluence and von Mises-Fisher lobes of direct and of indirect light.
 
+Samples of camera paths (photon-trace --paths) teach a cell like photons, each kind by its evidence.
+
 With --in, training goes on from a cache that was not reduced: photons of another pass refine it.
 
 Examples:

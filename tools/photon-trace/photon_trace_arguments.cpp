@@ -19,12 +19,17 @@ void declare(CLI::App& app, PhotonTraceArguments& arguments) {
       "Photons of the emitters, or importons of the camera");
   as_input(app.add_option("--importance", arguments.importance,
                           "Importance cache that guides the photons"));
-  app.add_option("--count", options.count, "Particles to emit")
-      ->check(CLI::Range(1ull, 4000000000ull));
+  app.add_option("--count", options.count, "Particles to emit; 0 beside --paths: none")
+      ->check(CLI::Range(0ull, 4000000000ull));
+  app.add_option("--paths", options.paths,
+                 "Camera paths that carry radiance back, beside the photons")
+      ->check(CLI::Range(0ull, 4000000000ull));
+  as_input(app.add_option("--cache", arguments.cache,
+                          "Cache of the pass before that guides the camera paths"));
   app.add_option("--seed", options.seed, "Seed of the random numbers");
   app.add_option("--pass", options.pass,
                  "Number of the pass: other random numbers of the same seed");
-  app.add_option("--max-depth", options.max_depth, "Most scattering events of one particle")
+  app.add_option("--max-depth", options.max_depth, "Most scattering events of one particle or path")
       ->check(CLI::Range(1, 10000));
   app.add_option("--rr-depth", options.rr_depth, "Scattering events before Russian roulette begins")
       ->check(CLI::Range(0, 10000));

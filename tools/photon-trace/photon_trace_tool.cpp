@@ -13,8 +13,7 @@
 namespace waylight {
 namespace {
 
-void report(const ToolRun& run, const Provenance& provenance, Quantity quantity,
-            const PhotonTraceSummary& s) {
+void report_particles(const ToolRun& run, Quantity quantity, const PhotonTraceSummary& s) {
   const double emitted = static_cast<double>(s.emitted);
   run.print(fmt::format("{} {} of {} particles in {:.1f} s ({}/s)", format_count(double(s.stored)),
                         quantity == Quantity::radiance ? "photons" : "importons",
@@ -23,10 +22,19 @@ void report(const ToolRun& run, const Provenance& provenance, Quantity quantity,
   run.print(fmt::format("particles: {:.1f} % absorbed, {:.1f} % left the scene, {:.2f} % too deep",
                         100 * s.absorbed / emitted, 100 * s.left_scene / emitted,
                         100 * s.too_deep / emitted));
+}
+
+void report(const ToolRun& run, const Provenance& provenance, Quantity quantity,
+            const PhotonTraceSummary& s) {
+  if (s.emitted > 0) report_particles(run, quantity, s);
+  if (s.paths > 0)
+    run.print(fmt::format("{} samples of {} camera paths in {:.1f} s{}",
+                          format_count(double(s.samples)), format_count(double(s.paths)), s.seconds,
+                          s.emitted > 0 ? ", photons included" : ""));
   if (s.invalid > 0) run.control.warn(fmt::format("{} invalid photons were dropped", s.invalid));
   if (s.in_media > 0)
     run.print(fmt::format("{} photons in media", format_count(double(s.in_media))));
-  if (s.stored + s.in_media == 0)
+  if (s.stored + s.in_media + s.samples == 0)
     run.control.warn("no particle hit a surface that stores photons: a cache cannot be trained");
   nlohmann::ordered_json stats = stats_of(provenance);
   stats.update({{"seconds", s.seconds},
@@ -35,6 +43,8 @@ void report(const ToolRun& run, const Provenance& provenance, Quantity quantity,
                 {"stored", s.stored},
                 {"escapes", s.escapes},
                 {"in_media", s.in_media},
+                {"paths", s.paths},
+                {"samples", s.samples},
                 {"absorbed", s.absorbed},
                 {"left_scene", s.left_scene},
                 {"too_deep", s.too_deep},
@@ -43,25 +53,43 @@ void report(const ToolRun& run, const Provenance& provenance, Quantity quantity,
   run.write_stats(stats);
 }
 
-std::optional<MappedCache> open_importance(const PhotonTraceArguments& arguments,
-                                           const SceneDescription& scene) {
-  if (arguments.importance.empty()) return std::nullopt;
-  MappedCache cache(arguments.importance);
-  require_same_scene(arguments.importance, cache.provenance(), file_name(arguments.scene.path),
-                     scene.hash, SceneParts::all);
-  if (cache.view().quantity != Quantity::importance)
-    fail(
-        "\"{}\": holds radiance; --importance needs a cache trained on `photon-trace --from "
-        "camera`",
-        arguments.importance);
+// A cache of this scene that guides; empty where none was given. wanted: what the option needs.
+std::optional<MappedCache> open_guide(const std::string& path, Quantity quantity,
+                                      const char* wanted, const PhotonTraceArguments& arguments,
+                                      const SceneDescription& scene) {
+  if (path.empty()) return std::nullopt;
+  MappedCache cache(path);
+  require_same_scene(path, cache.provenance(), file_name(arguments.scene.path), scene.hash,
+                     SceneParts::all);
+  if (cache.view().quantity != quantity)
+    fail("\"{}\": holds {}; {}", path, quantity_name(cache.view().quantity), wanted);
   return cache;
 }
+
+struct Guides {
+  std::optional<MappedCache> importance, radiance;
+
+  Guides(const PhotonTraceArguments& a, const SceneDescription& scene)
+      : importance(open_guide(a.importance, Quantity::importance,
+                              "--importance needs a cache trained on `photon-trace --from camera`",
+                              a, scene)),
+        radiance(open_guide(a.cache, Quantity::radiance,
+                            "--cache needs one trained on photons or `photon-trace --paths`", a,
+                            scene)) {}
+
+  TraceGuides views() const {
+    return {importance ? importance->view() : GuideCacheView(),
+            radiance ? radiance->view() : GuideCacheView()};
+  }
+};
 
 }  // namespace
 
 void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArguments& arguments) {
   const PhotonTraceOptions& options = arguments.options;
   options.validate();
+  require(arguments.cache.empty() || options.paths > 0,
+          "--cache guides camera paths: it needs --paths");
   const std::unique_ptr<Scene> built =
       build_scene(load_scene(arguments.scene, run), arguments.scene, run);
   const Scene& scene = *built;
@@ -69,18 +97,24 @@ void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArg
     run.control.warn(
         fmt::format("\"{}\": no emitter sends light into the scene: there are no photons to trace",
                     arguments.scene.path));
-  const std::optional<MappedCache> importance = open_importance(arguments, scene.description());
+  const Guides guides(arguments, scene.description());
   Provenance provenance =
       provenance_of(run, tool, options.seed, arguments.scene, scene.description().hash);
-  if (importance) provenance.parents.push_back(parent_of(arguments.importance));
-  const bool media = scene.has_media() && options.quantity == Quantity::radiance;
-  PhotonWriter writer(
-      arguments.output,
-      {provenance, {scene.bounds(), options.count, options.pass, options.quantity, media}});
+  for (const std::string& guide : {arguments.importance, arguments.cache})
+    if (!guide.empty()) provenance.parents.push_back(parent_of(guide));
+  const bool media =
+      scene.has_media() && options.quantity == Quantity::radiance && options.count > 0;
+  const PhotonStreamInfo stream{scene.bounds(),
+                                options.count,
+                                options.pass,
+                                options.quantity,
+                                media,
+                                options.paths,
+                                expected_records(scene, options, guides.views())};
+  PhotonWriter writer(arguments.output, {provenance, stream});
   const PhotonTraceSummary summary = trace_photons(
       scene, options, [&](std::span<const Photon> photons) { writer.write(photons); }, run.control,
-      [&](std::span<const Escape> escapes) { writer.write(escapes); },
-      importance ? importance->view() : GuideCacheView(),
+      [&](std::span<const Escape> escapes) { writer.write(escapes); }, guides.views(),
       [&](std::span<const MediumPhoton> photons) { writer.write(photons); });
   run.stop_if_interrupted();
   writer.finish(summary);

@@ -7,7 +7,7 @@ namespace waylight {
 
 struct PhotonTraceArguments {
   SceneArguments scene;
-  std::string output, importance;
+  std::string output, importance, cache;
   PhotonTraceOptions options;
 };
 
