@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/image_mean.h"
 #include "common/small_media.h"
 #include "libguide/render.h"
 
@@ -10,10 +11,7 @@ namespace {
 
 using testing::box_of;
 using testing::homogeneous;
-
-struct Mean {
-  Color value = Color::Zero(), sigma = Color::Zero();  // and its standard error
-};
+using testing::Mean;
 
 Mean mean_of(SceneDescription description, int spp, int max_depth = -1) {
   const Scene scene(std::move(description));
@@ -21,17 +19,7 @@ Mean mean_of(SceneDescription description, int spp, int max_depth = -1) {
   options.spp = spp;
   options.max_depth = max_depth;
   options.aovs.variance = true;
-  const Image image = render(scene, {}, options, nullptr, {});
-  Mean mean;
-  const float pixels = static_cast<float>(image.width * image.height);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < 3; ++c) {
-        mean.value[c] += image.at(x, y, c) / pixels;
-        mean.sigma[c] += image.at(x, y, 3 + c) / sqr(pixels);
-      }
-  mean.sigma = mean.sigma.sqrt();
-  return mean;
+  return testing::mean_of(render(scene, {}, options, nullptr, {}));
 }
 
 void expect_mean(const Mean& mean, const Color& expected, const char* what) {
@@ -74,8 +62,8 @@ TEST(Media, ACloudOfAlbedoOneVanishesInAWhiteFurnace) {
 TEST(Media, AGlassBallOfFogVanishesInAWhiteFurnace) {
   SceneDescription scene;
   scene.media.push_back(homogeneous(Color(0.5f, 1, 2), Color::Ones(), 0.3f));
-  const uint32_t ball =
-      testing::add_shape(scene, Sphere{}, testing::add_material(scene, "glass", DielectricMaterial{}));
+  const uint32_t ball = testing::add_shape(
+      scene, Sphere{}, testing::add_material(scene, "glass", DielectricMaterial{}));
   scene.shapes[ball].interior_medium = 0;
   scene.emitters.push_back(ConstantEnvironment{Color::Ones()});
   testing::look_along_z(scene, {0, 0, -4}, 8, 8);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "common/image_mean.h"
 #include "common/small_media.h"
 #include "common/trained.h"
 #include "libguide/cache/guide_cache_view.h"
@@ -12,29 +13,14 @@ namespace {
 
 using testing::box_of;
 using testing::homogeneous;
+using testing::Mean;
+using testing::mean_of;
 
 const Color kLe(3, 2, 1);
 
 Medium glowing(Medium medium) {
   medium.emission.radiance = kLe;
   return medium;
-}
-
-struct Mean {
-  Color value = Color::Zero(), sigma = Color::Zero();  // and its standard error
-};
-
-Mean mean_of(const Image& image) {
-  Mean mean;
-  const float pixels = static_cast<float>(image.width * image.height);
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      for (int c = 0; c < 3; ++c) {
-        mean.value[c] += image.at(x, y, c) / pixels;
-        mean.sigma[c] += image.at(x, y, 3 + c) / sqr(pixels);
-      }
-  mean.sigma = mean.sigma.sqrt();
-  return mean;
 }
 
 void expect_mean(const Image& image, const Color& expected, const std::string& what) {
