@@ -65,7 +65,8 @@ class Renderer {
         film_(crop_.crop_width, crop_.crop_height),
         tiles_x_((film_.width() + kTile - 1) / kTile),
         tiles_y_((film_.height() + kTile - 1) / kTile),
-        segments_(options.segments ? size_t(tiles_x_) * tiles_y_ : 0) {
+        segments_(options.segments ? size_t(tiles_x_) * tiles_y_ : 0),
+        clock_(clock_of(options)) {
     if (options.fluence) plane_.emplace(scene, *options.fluence, crop_.width, crop_.height);
     use(tracer_options(scene, options));
   }

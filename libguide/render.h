@@ -53,6 +53,8 @@ struct RenderOptions {
   // The render stops at whichever comes first; at least one must be set.
   int spp = 0;      // samples per pixel, 0: no limit
   double time = 0;  // seconds of rendering, 0: no limit
+  // Seconds are processor seconds over threads, for measuring on a machine that others use.
+  bool cpu_clock = false;
   float error = 0;  // relMSE estimated from the image's own variance, 0: no limit
   // Seconds of rendering, rising, at which the image so far is handed out; ends nothing.
   std::vector<double> checkpoints;
@@ -89,7 +91,7 @@ struct RenderCaches {
 struct RenderSummary {
   int width = 0, height = 0;  // of the image
   double mean_spp = 0;
-  double seconds = 0;            // rendering alone, the preview included
+  double seconds = 0;            // rendering alone, the preview included, by RenderOptions' clock
   double cpu_seconds = 0;        // of all threads of the process meanwhile
   double preview_seconds = 0;    // of them
   uint64_t rays = 0;             // camera, scattered and shadow rays, those of the preview included

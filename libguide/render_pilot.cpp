@@ -1,6 +1,5 @@
 #include "libguide/render_pilot.h"
 
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -107,7 +106,11 @@ class MethodChoice {
  public:
   MethodChoice(const RenderOptions& options, const SensorDescription& sensor,
                const PathTracer& tracer, const std::function<bool()>& stop)
-      : options_(options), frame_(sensor, options.seed), tracer_(tracer), stop_(stop) {
+      : options_(options),
+        frame_(sensor, options.seed),
+        tracer_(tracer),
+        stop_(stop),
+        clock_(clock_of(options)) {
     const double paths = double(options.spp) * sensor.film.width * sensor.film.height;
     if (options.spp > 0)
       max_paths_ = static_cast<uint64_t>(std::min(double(kMaxPaths), kPilotShare * paths));
@@ -150,9 +153,7 @@ class MethodChoice {
     return measure(tracer_, arms, frame_, pilot, [&] { return stop_() || late(1); });
   }
 
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  double seconds() const { return clock_.seconds(); }
 
  private:
   bool late(double share) const {
@@ -164,7 +165,7 @@ class MethodChoice {
   const PathTracer& tracer_;
   const std::function<bool()>& stop_;
   uint64_t max_paths_ = kMaxPaths;  // a million
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch clock_;
 };
 
 void count_cells(const std::vector<CellChoice>& choices, AutoDecision* decision) {

@@ -6,6 +6,7 @@
 
 #include "libguide/base/error.h"
 #include "libguide/base/memory.h"
+#include "libguide/base/parallel.h"
 #include "libguide/transport/film.h"
 
 namespace waylight {
@@ -85,6 +86,10 @@ bool insists_on_media(const RenderOptions& options) {
 bool needs_cache(const RenderOptions& options) {
   if (options.mode == RenderMode::automatic) return insists_on_media(options);
   return options.mode != RenderMode::bsdf || guides_media(options) || insists_on_media(options);
+}
+
+Stopwatch clock_of(const RenderOptions& options) {
+  return Stopwatch(options.cpu_clock ? thread_count() : 0);
 }
 
 Roulette roulette_of(const RenderOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
 // What the options of a render mean to its film and its path tracer.
 
+#include "libguide/base/stopwatch.h"
 #include "libguide/render.h"
 #include "libguide/transport/path_tracer.h"
 
@@ -15,6 +16,9 @@ FilmDescription film_of(const FilmDescription& scene_film, const RenderOptions& 
 // Of BSDF sampling where nothing was learned. Incident light alone knows nothing of the BSDF; of
 // the product 0.3 is the best of 0.1 .. 0.7 in two measured interiors.
 float default_share(RenderMode mode);
+
+// Started now, by the clock that the options name.
+Stopwatch clock_of(const RenderOptions& options);
 
 // What `automatic` stands for.
 Roulette roulette_of(const RenderOptions& options);

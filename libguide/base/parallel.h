@@ -19,6 +19,9 @@ class ThreadLimit {
   void* control_;
 };
 
+// Threads that parallel loops may use now.
+int thread_count();
+
 // Calls body(i) for each i in [0, count), with denormals flushed to zero in the worker.
 void parallel_for(size_t count, const std::function<void(size_t)>& body);
 

@@ -8,7 +8,13 @@ namespace waylight {
 // Seconds of work: those in which checkpoints are written do not count.
 class Stopwatch {
  public:
-  double seconds() const { return now() - start_; }
+  // processors: 0 counts seconds as they pass; n > 0 counts processor seconds of this process over
+  // n, which other processes of a busy machine do not lengthen.
+  explicit Stopwatch(int processors = 0) : processors_(processors) {}
+
+  double seconds() const {
+    return processors_ > 0 ? cpu_seconds() / processors_ : now() - start_;
+  }
   double cpu_seconds() const { return cpu_now() - cpu_start_; }
   template <typename Work>
   void paused(const Work& work) {
@@ -25,6 +31,7 @@ class Stopwatch {
   }
   static double cpu_now() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
+  int processors_;
   double start_ = now(), cpu_start_ = cpu_now();
 };
 

@@ -13,13 +13,20 @@ void require_equal_size(const Bitmap& image, const Bitmap& reference) {
           reference.width, reference.height);
 }
 
-double relative_error(const Color& x, const Color& ref) {
-  double sum = 0;
+struct PixelErrors {
+  double squared = 0, relative = 0, absolute = 0;  // means over the channels; relative: squared too
+};
+
+PixelErrors errors_of(const Color& x, const Color& ref, const Color& noise) {
+  PixelErrors errors;
   for (int c = 0; c < 3; ++c) {
     const double difference = double{x[c]} - ref[c];
-    sum += difference * difference / (double{ref[c]} * ref[c] + kRelativeErrorFloor);
+    const double squared = difference * difference - noise[c];
+    errors.squared += squared / 3;
+    errors.relative += squared / (double{ref[c]} * ref[c] + kRelativeErrorFloor) / 3;
+    errors.absolute += std::abs(difference) / (std::abs(double{ref[c]}) + kRelativeErrorFloor) / 3;
   }
-  return sum / 3;
+  return errors;
 }
 
 // Mean of all but the largest; the order of equal ones does not matter.
@@ -45,31 +52,30 @@ Color heat(float t) {
 
 }  // namespace
 
-CompareFigures compare(const Bitmap& image, const Bitmap& reference) {
+CompareFigures compare(const Bitmap& image, const Bitmap& reference, const Bitmap* noise) {
   require_equal_size(image, reference);
+  if (noise) require_equal_size(*noise, reference);
   CompareFigures figures;
   std::vector<double> errors;
   errors.reserve(image.pixels.size());
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     const Color &x = image.pixels[i], &ref = reference.pixels[i];
-    if (!is_finite(x) || !is_finite(ref)) continue;
-    errors.push_back(relative_error(x, ref));
-    figures.relmse += errors.back();
-    for (int c = 0; c < 3; ++c) {
-      const double difference = double{x[c]} - ref[c];
-      figures.mse += difference * difference;
-      figures.mape += std::abs(difference) / (std::abs(double{ref[c]}) + kRelativeErrorFloor);
-      figures.mean += x[c];
-      figures.ref_mean += ref[c];
-    }
+    const Color own = noise ? noise->pixels[i] : Color(Color::Zero());
+    if (!is_finite(x) || !is_finite(ref) || !is_finite(own)) continue;
+    const PixelErrors pixel = errors_of(x, ref, own);
+    errors.push_back(pixel.relative);
+    figures.relmse += pixel.relative;
+    figures.mse += pixel.squared;
+    figures.mape += pixel.absolute;
+    figures.mean += double{x[0]} + x[1] + x[2];
+    figures.ref_mean += double{ref[0]} + ref[1] + ref[2];
   }
   figures.pixels = errors.size();
   figures.non_finite = image.pixels.size() - errors.size();
   if (errors.empty()) fail("no pixel is finite in both pictures");
   const auto count = static_cast<double>(errors.size());
-  for (double* sum : {&figures.mse, &figures.mape, &figures.mean, &figures.ref_mean})
-    *sum /= 3 * count;
-  figures.relmse /= count;
+  for (double* sum : {&figures.mse, &figures.relmse, &figures.mape}) *sum /= count;
+  for (double* sum : {&figures.mean, &figures.ref_mean}) *sum /= 3 * count;
   figures.relmse_trimmed = trimmed_mean(errors);
   return figures;
 }
@@ -81,7 +87,8 @@ std::vector<float> relative_errors(const Bitmap& image, const Bitmap& reference)
   for (size_t i = 0; i < image.pixels.size(); ++i) {
     const bool finite = is_finite(image.pixels[i]) && is_finite(reference.pixels[i]);
     errors.push_back(finite
-                         ? static_cast<float>(relative_error(image.pixels[i], reference.pixels[i]))
+                         ? static_cast<float>(
+                               errors_of(image.pixels[i], reference.pixels[i], Color::Zero()).relative)
                          : std::numeric_limits<float>::quiet_NaN());
   }
   return errors;

@@ -12,7 +12,7 @@ inline constexpr double kRelativeErrorFloor = 0.01;
 // Share of the pixels, those of largest error, that the trimmed figure leaves out.
 inline constexpr double kTrimmedShare = 0.001;
 
-// Means over pixels and channels, of the pixels that are finite in both pictures.
+// Means over pixels and channels, of the pixels that are finite in all pictures.
 struct CompareFigures {
   double mse = 0;             // (x - ref)^2
   double relmse = 0;          // (x - ref)^2 / (ref^2 + 0.01)
@@ -25,8 +25,11 @@ struct CompareFigures {
   double mean_ratio() const { return mean / ref_mean; }
 };
 
-// Pictures of equal size. Throws Misuse otherwise.
-CompareFigures compare(const Bitmap& image, const Bitmap& reference);
+// Pictures of equal size. Throws Misuse otherwise. noise: variance of each pixel of the reference,
+// which is taken from every squared error: what is left is, in the mean, the error against the image
+// that the reference is an estimate of. Single pixels, and figures well below the noise, may be
+// negative then.
+CompareFigures compare(const Bitmap& image, const Bitmap& reference, const Bitmap* noise = nullptr);
 
 // The relative squared error of each pixel, mean of its channels; NaN where one is not finite.
 std::vector<float> relative_errors(const Bitmap& image, const Bitmap& reference);

@@ -46,6 +46,8 @@ void declare(CLI::App& app, ImageCompareOptions& options) {
       ->expected(4);
   app.add_flag("--resize-reference", options.resize_reference,
                "Reduce a larger reference to the size of the image");
+  app.add_flag("--subtract-reference-noise", options.subtract_reference_noise,
+               "Take the reference's own variance, which it has as channels, from squared errors");
   app.add_flag("--json", options.json, "Print JSON");
 }
 

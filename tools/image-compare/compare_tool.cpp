@@ -59,10 +59,11 @@ std::vector<Bitmap> read_renders(const ImageCompareOptions& options, const Image
   return renders;
 }
 
-std::vector<double> relmse_of_each(const std::vector<Bitmap>& renders, const Bitmap& reference) {
+std::vector<double> relmse_of_each(const std::vector<Bitmap>& renders, const Bitmap& reference,
+                                   const Bitmap* noise) {
   std::vector<double> result;
   for (const Bitmap& render : renders)
-    result.push_back(waylight::compare(render, reference).relmse);
+    result.push_back(waylight::compare(render, reference, noise).relmse);
   return result;
 }
 
@@ -153,7 +154,14 @@ void image_compare(const ToolRun& run, const ImageCompareOptions& options) {
   const Bitmap x = mean_picture(renders);
   const Bitmap ref =
       frame(colors_in(reference, options.reference, ""), options.reference, PixelQuantity::mean);
-  ComparisonReport report{waylight::compare(x, ref), relmse_of_each(renders, ref), {}};
+  std::optional<Bitmap> noise;
+  if (options.subtract_reference_noise)
+    noise = frame(colors_in(reference, options.reference, kVariance), options.reference,
+                  PixelQuantity::variance);
+  const Bitmap* const noise_of_reference = noise ? &*noise : nullptr;
+  ComparisonReport report{waylight::compare(x, ref, noise_of_reference),
+                          relmse_of_each(renders, ref, noise_of_reference),
+                          {}};
   if (!options.variances.empty())
     report.z = z_scores(x, ref, total_variance(options, image, reference, frame), options.tile_size,
                         options.z_floor * report.figures.ref_mean);

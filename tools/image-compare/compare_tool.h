@@ -23,6 +23,7 @@ struct ImageCompareOptions {
   std::vector<std::string> preprocess_stats;  // JSON of other stages
   std::vector<int> crop;                      // x, y, width, height, or empty
   bool resize_reference = false;
+  bool subtract_reference_noise = false;  // by its channels of variance
   bool json = false;
 
   void validate() const;

@@ -134,6 +134,10 @@ void add_stopping(CLI::App& app, RenderOptions& options) {
   app.add_option("--time", options.time, "Seconds of rendering")
       ->check(CLI::PositiveNumber)
       ->default_str("");
+  add_choice(
+      app, "--clock", {"wall", "cpu"}, [&options](size_t i) { options.cpu_clock = i == 1; },
+      "What seconds of rendering are; cpu: processor seconds over threads, for comparing methods "
+      "on a machine that has other work");
   app.add_option("--error", options.error, "Estimated relMSE to reach")
       ->check(CLI::PositiveNumber)
       ->default_str("");

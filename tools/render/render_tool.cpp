@@ -107,10 +107,11 @@ nlohmann::ordered_json json_of(const AutoDecision& decision) {
           {"compared", compared}};
 }
 
-void write_stats(const ToolRun& run, const Provenance& provenance, RenderMode mode,
+void write_stats(const ToolRun& run, const Provenance& provenance, const RenderOptions& options,
                  const RenderSummary& s, const std::string& tag = {}) {
   nlohmann::ordered_json stats = stats_of(provenance);
-  stats.update({{"mode", mode_name(mode)},
+  stats.update({{"mode", mode_name(options.mode)},
+                {"clock", options.cpu_clock ? "cpu" : "wall"},
                 {"seconds", s.seconds},
                 {"cpu_seconds", s.cpu_seconds},
                 {"spp", s.mean_spp},
@@ -127,7 +128,7 @@ void write_stats(const ToolRun& run, const Provenance& provenance, RenderMode mo
                 {"invalid_samples", s.invalid_samples},
                 {"interrupted", s.interrupted},
                 {"peak_memory_bytes", peak_memory_bytes()}});
-  if (mode == RenderMode::automatic) stats["auto"] = json_of(s.decision);
+  if (options.mode == RenderMode::automatic) stats["auto"] = json_of(s.decision);
   run.write_stats(stats, tag);
 }
 
@@ -157,7 +158,7 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
              [&](double checkpoint, const Image& so_far, const RenderSummary& figures) {
                const std::string tag = fmt::format("{:g}s", checkpoint);
                write_images(so_far, tag);
-               write_stats(run, provenance, options.mode, figures, tag);
+               write_stats(run, provenance, options, figures, tag);
              });
   if (summary.mean_spp < 1) run.stop_if_interrupted();  // a part of the pixels is no image
   write_images(image, "");
@@ -166,7 +167,7 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
                         summary.segments);
   report(run, summary);
   if (options.mode == RenderMode::automatic) report(run, summary.decision);
-  write_stats(run, provenance, options.mode, summary);
+  write_stats(run, provenance, options, summary);
 }
 
 }  // namespace waylight

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "libguide/base/error.h"
 
 namespace waylight {
@@ -38,6 +40,27 @@ TEST(Compare, FiguresOfConstantPicturesAreAnalytic) {
   EXPECT_NEAR(figures.mean, 0.75, 1e-9);
   EXPECT_NEAR(figures.ref_mean, 0.5, 1e-9);
   EXPECT_NEAR(figures.mean_ratio(), 1.5, 1e-9);
+}
+
+TEST(Compare, ErrorWithoutTheNoiseOfTheReferenceIsThatAgainstTheTruth) {
+  constexpr int kSide = 200;
+  std::mt19937 random(3);
+  std::normal_distribution<float> of_image(0, 0.2f), of_reference(0, 0.3f);
+  Bitmap image = picture(kSide, kSide, Color::Ones()), reference = image;
+  for (Color& color : image.pixels) color += of_image(random);
+  for (Color& color : reference.pixels) color += of_reference(random);
+  const Bitmap noise = picture(kSide, kSide, Color::Constant(0.09f));
+  EXPECT_NEAR(compare(image, reference).mse, 0.04 + 0.09, 0.003);
+  EXPECT_NEAR(compare(image, reference, &noise).mse, 0.04, 0.003);
+}
+
+TEST(Compare, PixelsWhoseNoiseIsNotFiniteAreLeftOut) {
+  const Bitmap image = picture(2, 2, Color::Ones());
+  Bitmap noise = picture(2, 2, Color::Constant(0.5f));
+  noise.pixels[1][2] = kNaN;
+  const CompareFigures figures = compare(image, image, &noise);
+  EXPECT_EQ(figures.pixels, 3u);
+  EXPECT_NEAR(figures.mse, -0.5, 1e-9);
 }
 
 TEST(Compare, TrimmedFigureLeavesOutOnePixelOfAThousand) {
