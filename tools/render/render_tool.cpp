@@ -19,7 +19,8 @@
 namespace waylight {
 namespace {
 
-// The caches that the mode asks for, checked against the scene. Others are not even opened.
+// The caches that the mode asks for, checked against the scene. Others are not even opened, and of
+// the illumination cache, which is mapped, only what paths look at is read.
 struct LoadedCaches {
   LoadedCaches(const RenderArguments& arguments, const RenderOptions& options,
                const SceneDescription& scene) {
@@ -40,7 +41,8 @@ struct LoadedCaches {
     if (!automatic && guide->view().cells.empty() && guide->view().medium.cells.empty())
       fail("\"{}\": has no cells; train it on photons of the scene", arguments.cache);
     parents.push_back(parent_of(arguments.cache));
-    if (!needs_fits(mode) && !(automatic && !arguments.brdf.empty())) return;
+    const bool fits_may_pay = automatic && !arguments.brdf.empty() && !guide->view().cells.empty();
+    if (!needs_fits(mode) && !fits_may_pay) return;
     require(!arguments.brdf.empty(), "--mode {} needs --brdf", mode_name(mode));
     brdf.emplace(read_brdf(arguments.brdf));
     require_same_scene(arguments.brdf, brdf->provenance, scene_name, scene.hash,
