@@ -77,7 +77,7 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
   const auto components = add_records(builder, c.components);
   const auto cells = add_records(builder, c.cells);
   const auto nodes = add_records(builder, c.nodes);
-  flatbuffers::Offset<flatbuffers::Vector<const fbs::CellReach*>> reaches;
+  flatbuffers::Offset<flatbuffers::Vector<const fbs::Bounds*>> reaches;
   if (!c.reaches.empty()) reaches = add_records(builder, c.reaches);
   flatbuffers::Offset<flatbuffers::Vector<const fbs::CellSources*>> sources;
   if (!c.sources.empty()) sources = add_records(builder, c.sources);
@@ -94,7 +94,7 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
           builder, version_of(c), provenance, &bounds, c.emitted, c.passes, c.photons, nodes, cells,
           components, statistics, training, waylight::to_flat(c.quantity), escape_bins,
           escape_weights, c.medium.emitted, c.medium.photons, medium.nodes, medium.cells,
-          medium.components, medium.statistics, medium.training, reaches, c.paths, sources));
+          medium.components, medium.statistics, medium.training, c.paths, sources, reaches));
 }
 
 const fbs::GuideCache& root_of(const FileMap& map) {
@@ -112,7 +112,7 @@ GuideCacheView view_of(const fbs::GuideCache& root, const std::string& path) {
                       records_of<CacheCell>(root.cells(), path),
                       records_of<GaussianComponent>(root.components(), path));
   view.quantity = quantity_from(root.quantity(), path);
-  view.reaches = records_of<CellReach>(root.reaches(), path);
+  view.reaches = records_of<CellReach>(root.boxes(), path);
   view.escape_bins = numbers_of(root.escape_bins());
   view.escape_weights = numbers_of(root.escape_weights());
   view.medium = medium_view_of(root, path);

@@ -33,8 +33,8 @@ std::string check_reaches(const GuideCacheView& view) {
   if (!view.reaches.empty() && view.reaches.size() != view.cells.size())
     return "the reaches do not belong to their cells";
   for (const CellReach& reach : view.reaches)
-    if (!reach.centre.allFinite() || !(reach.radius >= 0))
-      return "the reach of a cell is negative or no number";
+    if (!(reach.min.array() <= reach.max.array()).all())
+      return "the reach of a cell is empty or no number";
   return {};
 }
 

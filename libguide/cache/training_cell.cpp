@@ -26,9 +26,10 @@ constexpr float kOwnAreaPhotons = 32;
 // Photons that tell on which side of a surface a new cell lies.
 constexpr float kOwnSidePhotons = 8;
 
-// Photons that tell how far a cell reaches, and how much further than their box that is.
+// Photons that tell how far a cell reaches: no further than their box and a share of its radius, and
+// than so many standard deviations from their mean and a little, since surfaces are flat.
 constexpr uint32_t kOwnExtentPhotons = 64;
-constexpr float kRoom = 1.25f;
+constexpr float kRoom = 0.25f, kDeviations = 3, kThickness = 0.01f;
 
 // Of photons as CellTraining has it, W; of what camera paths found, W/m^2.
 float weight_of(const Photon& photon, float emitted) {
@@ -159,10 +160,7 @@ TrainingCell TrainingCell::child(const CellSplit& split, bool upper, double now,
   return child;
 }
 
-Bounds TrainingCell::box(const CellReach& reach) {
-  const Vec3 half = Vec3::Constant(reach.radius);
-  return {reach.centre - half, reach.centre + half};
-}
+Bounds TrainingCell::box(const CellReach& reach) { return {reach.min, reach.max}; }
 
 // The box of n photons lacks about 1 / n of what they are spread over.
 Bounds TrainingCell::extent() const {
@@ -170,10 +168,19 @@ Bounds TrainingCell::extent() const {
   return inherited_;
 }
 
+// Where most photons of a cell lie in front of a wall and a few stray ones behind it, their box goes
+// through the wall, but their standard deviations hardly do.
 CellReach TrainingCell::reach() const {
   const Bounds box = extent();
-  if (!box.min.allFinite() || !box.max.allFinite()) return {};
-  return {box.center(), kRoom * box.radius()};
+  if (box.empty()) return {};
+  const Vec3 room = Vec3::Constant(kRoom * box.radius());
+  CellReach reach{box.min - room, box.max + room};
+  if (own_count_ < kOwnExtentPhotons) return reach;
+  const Vec3 spread = kDeviations * (training_.position_m2 / training_.count).cwiseSqrt() +
+                      Vec3::Constant(kThickness * box.radius());
+  reach.min = reach.min.cwiseMax(training_.position_mean - spread);
+  reach.max = reach.max.cwiseMin(training_.position_mean + spread);
+  return reach;
 }
 
 void TrainingCell::inherit_mixture(const TrainingCell& from, float share) {

@@ -27,10 +27,11 @@ struct CacheCell {
 // photon reached, it says nothing. A cell ends else only where another one begins: the dark side of
 // a wall would be guided by what was learned on the lit one.
 struct CellReach {
-  Vec3 centre = Vec3::Zero();
-  float radius = kInfinity;
+  Vec3 min = Vec3::Constant(-kInfinity), max = Vec3::Constant(kInfinity);
 
-  bool holds(const Vec3& p) const { return (p - centre).squaredNorm() <= radius * radius; }
+  bool holds(const Vec3& p) const {
+    return (p.array() >= min.array()).all() && (p.array() <= max.array()).all();
+  }
 };
 
 // The decayed sufficient statistics of one component, kept so that training can go on: s0 its share

@@ -264,13 +264,13 @@ TEST_F(RoundTrip, StreamOfRadianceHasNoEscapes) {
 
 TEST_F(RoundTrip, ReachesOfCells) {
   CacheFile out = small_cache();
-  out.cache.reaches.assign(out.cache.cells.size(), {Vec3(1, 2, 3), 4});
+  out.cache.reaches.assign(out.cache.cells.size(), {Vec3(1, 2, 3), Vec3(4, 5, 6)});
   write_cache(path("a.cache"), out);
-  EXPECT_EQ(read_cache(path("a.cache")).cache.reaches[0].centre, Vec3(1, 2, 3));
-  EXPECT_EQ(MappedCache(path("a.cache")).view().reaches[0].radius, 4);
+  EXPECT_EQ(read_cache(path("a.cache")).cache.reaches[0].min, Vec3(1, 2, 3));
+  EXPECT_EQ(MappedCache(path("a.cache")).view().reaches[0].max, Vec3(4, 5, 6));
 
-  out.cache.reaches[0].radius = -1;
-  EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "a negative reach";
+  out.cache.reaches[0].max.y() = 1;
+  EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "an empty reach";
   out.cache.reaches.push_back({});
   EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "a reach without cell";
 }
