@@ -70,6 +70,11 @@ void require_memory_for(const FilmDescription& film, bool segments) {
       film.crop_width, film.crop_height, needed / 1e9, limit / 1e9);
 }
 
+int split_of(const RenderOptions& options) {
+  if (options.split > 0) return options.split;
+  return options.mode == RenderMode::automatic ? 2 : 1;
+}
+
 }  // namespace
 
 bool guides_media(const RenderOptions& options) {
@@ -123,8 +128,8 @@ void RenderOptions::validate() const {
           distance_bias);
   require(weight_window >= 1 && weight_window <= WeightWindow::kMaxRatio,
           "--weight-window must be in [1, {}], not {}", WeightWindow::kMaxRatio, weight_window);
-  require(split >= 1 && split <= kMaxSplit, "--split must be in [1, {}], not {}", kMaxSplit, split);
-  require(split == 1 || roulette_of(*this) == Roulette::guided,
+  require(split >= 0 && split <= kMaxSplit, "--split must be in [0, {}], not {}", kMaxSplit, split);
+  require(split <= 1 || roulette_of(*this) == Roulette::guided,
           "--split needs guided roulette: --rr guided, or a mode other than bsdf");
   require(bsdf_share >= 0.01f && bsdf_share <= 1,
           "--bsdf-share must be learned or in [0.01, 1], not {}", bsdf_share);
@@ -169,7 +174,7 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
   result.flights.guides_grids = options.distance == DistanceMode::guided;
   result.roulette = roulette_of(options);
   result.window = WeightWindow(options.weight_window);
-  result.max_split = options.split;
+  result.max_split = split_of(options);
   result.max_depth = options.max_depth == -2 ? defaults.max_depth : options.max_depth;
   result.rr_depth = options.rr_depth == -1 ? defaults.rr_depth : options.rr_depth;
   result.hide_emitters = defaults.hide_emitters && !options.fluence;
