@@ -24,7 +24,7 @@ size_t bytes_needed(const CacheFile& file) {
   const GuideCache& c = file.cache;
   return provenance_bytes(file.provenance) + c.nodes.size() * sizeof(CacheNode) +
          c.cells.size() * sizeof(CacheCell) + c.reaches.size() * sizeof(CellReach) +
-         c.components.size() * sizeof(GaussianComponent) +
+         c.boxes.size() * sizeof(Bounds) + c.components.size() * sizeof(GaussianComponent) +
          c.statistics.size() * sizeof(ComponentStatistics) +
          c.training.size() * sizeof(CellTraining) + c.sources.size() * sizeof(CellSources) +
          (c.escape_bins.size() + c.escape_weights.size()) * sizeof(float) + medium_bytes(c.medium);
@@ -79,6 +79,8 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
   const auto nodes = add_records(builder, c.nodes);
   flatbuffers::Offset<flatbuffers::Vector<const fbs::CellReach*>> reaches;
   if (!c.reaches.empty()) reaches = add_records(builder, c.reaches);
+  flatbuffers::Offset<flatbuffers::Vector<const fbs::Bounds*>> boxes;
+  if (!c.boxes.empty()) boxes = add_records(builder, c.boxes);
   flatbuffers::Offset<flatbuffers::Vector<const fbs::CellSources*>> sources;
   if (!c.sources.empty()) sources = add_records(builder, c.sources);
   flatbuffers::Offset<flatbuffers::Vector<uint32_t>> escape_bins;
@@ -94,7 +96,7 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
           builder, version_of(c), provenance, &bounds, c.emitted, c.passes, c.photons, nodes, cells,
           components, statistics, training, waylight::to_flat(c.quantity), escape_bins,
           escape_weights, c.medium.emitted, c.medium.photons, medium.nodes, medium.cells,
-          medium.components, medium.statistics, medium.training, reaches, c.paths, sources));
+          medium.components, medium.statistics, medium.training, reaches, c.paths, sources, boxes));
 }
 
 const fbs::GuideCache& root_of(const FileMap& map) {
@@ -113,6 +115,7 @@ GuideCacheView view_of(const fbs::GuideCache& root, const std::string& path) {
                       records_of<GaussianComponent>(root.components(), path));
   view.quantity = quantity_from(root.quantity(), path);
   view.reaches = records_of<CellReach>(root.reaches(), path);
+  view.boxes = records_of<Bounds>(root.boxes(), path);
   view.escape_bins = numbers_of(root.escape_bins());
   view.escape_weights = numbers_of(root.escape_weights());
   view.medium = medium_view_of(root, path);
@@ -126,6 +129,7 @@ GuideCache copy_of(const fbs::GuideCache& root, const std::string& path) {
   cache.quantity = view.quantity;
   cache.scene_bounds = view.scene_bounds;
   cache.reaches = waylight::copy_of(view.reaches);
+  cache.boxes = waylight::copy_of(view.boxes);
   cache.escape_bins = waylight::copy_of(view.escape_bins);
   cache.escape_weights = waylight::copy_of(view.escape_weights);
   cache.emitted = root.emitted();

@@ -11,6 +11,7 @@ namespace waylight {
 FLAT_RECORD(CacheNode, fbs::CacheNode);
 FLAT_RECORD(CacheCell, fbs::CacheCell);
 FLAT_RECORD(CellReach, fbs::CellReach);
+FLAT_RECORD(Bounds, fbs::Bounds);
 FLAT_RECORD(ComponentStatistics, fbs::ComponentStatistics);
 FLAT_RECORD(CellTraining, fbs::CellTraining);
 FLAT_RECORD(CellSources, fbs::CellSources);

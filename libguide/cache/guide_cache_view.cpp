@@ -35,6 +35,10 @@ std::string check_reaches(const GuideCacheView& view) {
   for (const CellReach& reach : view.reaches)
     if (!reach.centre.allFinite() || !(reach.radius >= 0))
       return "the reach of a cell is negative or no number";
+  if (!view.boxes.empty() && view.boxes.size() != view.cells.size())
+    return "the boxes do not belong to their cells";
+  for (const Bounds& box : view.boxes)
+    if (box.empty()) return "the box of a cell is empty or no number";
   return {};
 }
 

@@ -31,6 +31,10 @@ inline float guiding_trust(const CacheCell& cell) {
 // photons for a cell of its own.
 inline constexpr float kMinNormalCosine = 0.25f;
 
+inline bool holds(const Bounds& box, const Vec3& p) {
+  return (box.min.array() <= p.array()).all() && (p.array() <= box.max.array()).all();
+}
+
 // Does not own what it views.
 struct GuideCacheView {
   Quantity quantity = Quantity::radiance;
@@ -39,6 +43,7 @@ struct GuideCacheView {
   std::span<const CacheCell> cells;
   std::span<const GaussianComponent> components;
   std::span<const CellReach> reaches;  // by cell, or empty
+  std::span<const Bounds> boxes;       // by cell, or empty: where else it ends
   std::span<const uint32_t> escape_bins;
   std::span<const float> escape_weights;
   MediumCacheView medium;
@@ -51,6 +56,7 @@ struct GuideCacheView {
       : GuideCacheView(cache.scene_bounds, cache.nodes, cache.cells, cache.components) {
     quantity = cache.quantity;
     reaches = cache.reaches;
+    boxes = cache.boxes;
     escape_bins = cache.escape_bins;
     escape_weights = cache.escape_weights;
     medium = MediumCacheView(cache.medium);
@@ -64,6 +70,7 @@ struct GuideCacheView {
     const uint32_t index = find_leaf(nodes, position, normal);
     const CacheCell& cell = cells[index];
     if (!reaches.empty() && !reaches[index].holds(position)) return nullptr;
+    if (!boxes.empty() && !holds(boxes[index], position)) return nullptr;
     const bool known = cell.component_count > 0 && cell.effective_samples >= kMinEffectiveSamples &&
                        cell.normal.dot(normal) >= kMinNormalCosine;
     return known ? &cell : nullptr;

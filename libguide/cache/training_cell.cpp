@@ -122,18 +122,50 @@ size_t TrainingCell::update(const CellTrainingOptions& options) {
 // prior.
 void TrainingCell::turn_to_photons() {
   const Vec3 normal = mean_normal(training_, record_.normal);
-  if (training_.step > 0) {
-    if (training_.normal_mean.norm() < kTurnAgreement || normal.dot(record_.normal) > kTurnCosine)
-      return;
-    const Frame from(record_.normal), to(normal);
-    Mat3 rotation;
-    for (int i = 0; i < 3; ++i) rotation.col(i) = to.to_local(from.to_world(Vec3::Unit(i)));
-    for (uint32_t k = 0; k < record_.component_count; ++k) {
-      components_[k] = carry(components_[k], rotation);
-      statistics_[k] = statistics_of(components_[k]);
-    }
+  if (training_.step > 0 &&
+      (training_.normal_mean.norm() < kTurnAgreement || normal.dot(record_.normal) > kTurnCosine))
+    return;
+  turn_to(normal);
+}
+
+void TrainingCell::turn_to(const Vec3& normal) {
+  const Frame from(record_.normal), to(normal);
+  Mat3 rotation;
+  for (int i = 0; i < 3; ++i) rotation.col(i) = to.to_local(from.to_world(Vec3::Unit(i)));
+  for (uint32_t k = 0; k < record_.component_count; ++k) {
+    components_[k] = carry(components_[k], rotation);
+    statistics_[k] = statistics_of(components_[k]);
   }
   record_.normal = normal;
+}
+
+// Areas add up better than the area of all photons follows from their covariance; later photons
+// take it from there. So the flux is restated for the area that irradiance() will take.
+void TrainingCell::unite(const TrainingCell& sibling, float room, double now, double min_area) {
+  const double both = area(min_area) + sibling.area(min_area);
+  const double exposures = exposure(now, min_area) + sibling.exposure(now, min_area);
+  own_ = extent();
+  own_.extend(sibling.extent());
+  inherited_ = own_;
+  room_ = room;
+  own_count_ += sibling.own_count_;
+  add_moments(training_, sibling.training_);
+  training_.inherited_area = static_cast<float>(both);
+  training_.flux =
+      (training_.flux + sibling.training_.flux) * (both > 0 ? area(min_area) / both : 1);
+  training_.born = std::clamp(now - (both > 0 ? exposures / both : 0), 0.0, now);
+  evidence_.add(sibling.evidence_);
+  add_evidence(sibling);
+}
+
+void TrainingCell::take_mixture(std::span<const GaussianComponent> mixture) {
+  replace_mixture(mixture);
+}
+
+double TrainingCell::irradiance_samples() const {
+  const double share =
+      record_.photon_count > 0 ? record_.effective_samples / record_.photon_count : 1;
+  return (training_.count + kInheritedPhotons) * std::min(share, 1.0) + evidence_.samples();
 }
 
 std::span<WeightedPoint> TrainingCell::batch_on_disk(Batch& batch) const {
@@ -159,11 +191,6 @@ TrainingCell TrainingCell::child(const CellSplit& split, bool upper, double now,
   return child;
 }
 
-Bounds TrainingCell::box(const CellReach& reach) {
-  const Vec3 half = Vec3::Constant(reach.radius);
-  return {reach.centre - half, reach.centre + half};
-}
-
 // The box of n photons lacks about 1 / n of what they are spread over.
 Bounds TrainingCell::extent() const {
   if (own_count_ >= kOwnExtentPhotons) return own_;
@@ -171,9 +198,18 @@ Bounds TrainingCell::extent() const {
 }
 
 CellReach TrainingCell::reach() const {
-  const Bounds box = extent();
-  if (!box.min.allFinite() || !box.max.allFinite()) return {};
-  return {box.center(), kRoom * box.radius()};
+  const Bounds bounds = was_merged() ? box() : extent();
+  if (!bounds.min.allFinite() || !bounds.max.allFinite()) return {};
+  return {bounds.center(), (was_merged() ? 1 : kRoom) * bounds.radius()};
+}
+
+// Corners of a box of diagonal 2 r that has r / sqrt(3) more on each side are within r further off.
+Bounds TrainingCell::box() const {
+  Bounds box = extent();
+  const float room = was_merged() ? room_ : (kRoom - 1) / std::sqrt(3.0f) * box.radius();
+  box.min.array() -= room;
+  box.max.array() += room;
+  return box;
 }
 
 void TrainingCell::inherit_mixture(const TrainingCell& from, float share) {
@@ -191,10 +227,13 @@ void TrainingCell::inherit_irradiance(CellTraining& child, double now, double mi
   child.born = now - exposure;
 }
 
-float TrainingCell::photon_irradiance(double now, double min_area) const {
+double TrainingCell::area(double min_area) const {
   const bool own = training_.count >= kOwnAreaPhotons || training_.inherited_area <= 0;
-  const double area = own ? photon_area(training_) : training_.inherited_area;
-  const double spread = std::max(area, min_area) * (now - training_.born);
+  return std::max(own ? photon_area(training_) : double{training_.inherited_area}, min_area);
+}
+
+float TrainingCell::photon_irradiance(double now, double min_area) const {
+  const double spread = exposure(now, min_area);
   const double limit = std::numeric_limits<float>::max();
   return spread > 0 ? static_cast<float>(std::min(training_.flux / spread, limit)) : 0.0f;
 }

@@ -10,6 +10,8 @@
 namespace waylight {
 namespace {
 
+const Bounds kEverywhere = {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
+
 // A cell that saw nothing does not know its side: lookups compare normals in any case.
 bool same_side(const TrainingCell& borrower, const TrainingCell& lender) {
   const Vec3& normal = lender.cell().normal;
@@ -31,6 +33,14 @@ CellTraining training_of(const GuideCache& previous, size_t i) {
   return training;
 }
 
+// Where a cell of a finished training was lit.
+Bounds extent_of(const GuideCache& previous, size_t i) {
+  if (!previous.boxes.empty() && previous.boxes[i].min.allFinite()) return previous.boxes[i];
+  const CellReach reach = previous.reaches.empty() ? CellReach() : previous.reaches[i];
+  const Vec3 half = Vec3::Constant(reach.radius);
+  return {reach.centre - half, reach.centre + half};
+}
+
 std::deque<TrainingCell> cells_of(const GuideCache& previous) {
   std::deque<TrainingCell> cells;
   for (size_t i = 0; i < previous.cells.size(); ++i) {
@@ -40,11 +50,16 @@ std::deque<TrainingCell> cells_of(const GuideCache& previous) {
         cell, training,
         std::span(previous.components).subspan(cell.first_component, cell.component_count),
         std::span(previous.statistics).subspan(cell.first_component, cell.component_count),
-        previous.reaches.empty() ? CellReach() : previous.reaches[i],
+        extent_of(previous, i),
         previous.sources.empty() ? CellEvidence(cell, training)
                                  : CellEvidence(previous.sources[i]));
   }
   return cells;
+}
+
+bool any_merged(const std::deque<TrainingCell>& cells) {
+  return std::any_of(cells.begin(), cells.end(),
+                     [](const TrainingCell& cell) { return cell.was_merged(); });
 }
 
 }  // namespace
@@ -71,6 +86,12 @@ void TrainingTree::split_full_cells(const TreeOptions& tree, const CellTrainingO
   });
 }
 
+void TrainingTree::merge_alike(const CellMergeOptions& options) {
+  merge_siblings([&](const TrainingCell& lower, const TrainingCell& upper, const CellSplit& split) {
+    return merge_if_alike(lower, upper, split, options);
+  });
+}
+
 void TrainingTree::lend_mixtures() {
   const auto needs = [](const TrainingCell& cell) { return cell.components().empty(); };
   const auto can_lend = [](const TrainingCell& borrower, const TrainingCell& lender) {
@@ -80,11 +101,22 @@ void TrainingTree::lend_mixtures() {
     (*this)[loan.borrower].inherit_mixture((*this)[loan.lender], loan.share);
 }
 
+size_t TrainingTree::stored_bytes() const {
+  size_t components = 0;
+  for (const TrainingCell& cell : cells()) components += cell.components().size();
+  const size_t of_cell =
+      sizeof(CacheCell) + sizeof(CellReach) + (any_merged(cells()) ? sizeof(Bounds) : 0);
+  return nodes().size() * sizeof(CacheNode) + size() * of_cell +
+         components * sizeof(GaussianComponent);
+}
+
 void TrainingTree::store(GuideCache& cache, const TreeOptions& tree,
                          double photons_per_particle) const {
   cache.nodes = nodes();
   cache.cells.clear();
   cache.reaches.clear();
+  cache.boxes.clear();
+  const bool merged = any_merged(cells());
   cache.training.clear();
   cache.components.clear();
   cache.statistics.clear();
@@ -96,6 +128,7 @@ void TrainingTree::store(GuideCache& cache, const TreeOptions& tree,
     cell.first_component = static_cast<uint32_t>(cache.components.size());
     cache.cells.push_back(cell);
     cache.reaches.push_back(trained.reach());
+    if (merged) cache.boxes.push_back(trained.was_merged() ? trained.box() : kEverywhere);
     cache.training.push_back(trained.training());
     if (cache.paths > 0) cache.sources.push_back(trained.evidence().sums());
     cache.components.insert(cache.components.end(), trained.components().begin(),

@@ -63,8 +63,8 @@ struct CellTraining {
 // What photons and camera paths each say of a cell, where there are camera paths: sums of weights,
 // of the weights that the mixture takes (as a rule those of indirect light), and of the squares of
 // these; how many samples of camera paths the mixture took, and how many looked for light. A
-// sample's weight is the luminance of its irradiance. Of those since the cell was made, and of a few
-// of its parent's.
+// sample's weight is the luminance of its irradiance. Of those since the cell was made, and of a
+// few of its parent's.
 struct CellSources {
   double light_all = 0, light_guided = 0, light_guided2 = 0;
   double camera_all = 0, camera_guided = 0, camera_guided2 = 0;
@@ -83,6 +83,7 @@ struct GuideCache {
   std::vector<CacheNode> nodes;
   std::vector<CacheCell> cells;
   std::vector<CellReach> reaches;  // by cell; empty: all have any
+  std::vector<Bounds> boxes;       // further bounds of them, by cell, where cells were merged
   std::vector<GaussianComponent> components;
   std::vector<ComponentStatistics> statistics;  // parallel to components, or empty
   std::vector<CellTraining> training;           // parallel to cells, or empty

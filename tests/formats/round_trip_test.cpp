@@ -275,6 +275,20 @@ TEST_F(RoundTrip, ReachesOfCells) {
   EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "a reach without cell";
 }
 
+TEST_F(RoundTrip, BoxesOfCells) {
+  CacheFile out = small_cache();
+  out.cache.boxes.assign(out.cache.cells.size(), {Vec3(1, 2, 3), Vec3::Constant(kInfinity)});
+  write_cache(path("a.cache"), out);
+  EXPECT_EQ(read_cache(path("a.cache")).cache.boxes[0].min, Vec3(1, 2, 3));
+  EXPECT_EQ(MappedCache(path("a.cache")).view().boxes[0].max.x(), kInfinity);
+
+  out.cache.boxes[0] = Bounds();
+  EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "an empty box";
+  out.cache.boxes[0] = {Vec3::Zero(), Vec3::Ones()};
+  out.cache.boxes.push_back(out.cache.boxes[0]);
+  EXPECT_THROW(write_cache(path("b.cache"), out), Error) << "a box without cell";
+}
+
 TEST_F(RoundTrip, CacheOfImportance) {
   CacheFile out = small_cache();
   out.cache.quantity = Quantity::importance;
