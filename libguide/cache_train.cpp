@@ -85,6 +85,7 @@ struct CacheTrainer::Impl {
   MediumRules medium_rules(const CacheTrainOptions& options) const;
   void finish_surfaces();
   void finish_media();
+  void merge_alike(const TreeOptions& rules);
   void summarise(CacheTrainSummary& summary) const;
 
   GuideCache cache_;             // without its cells while they are in training
@@ -95,7 +96,8 @@ struct CacheTrainer::Impl {
   EscapeMap escape_map_;
   EscapeHistogram escapes_;
   BlockTally escape_tally_;
-  size_t cells_before_;
+  size_t cells_before_, cells_before_merging_ = 0, bytes_saved_ = 0;
+  bool merges_alike_;
   TrainingClock clock_, medium_clock_;
   bool has_media_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -103,7 +105,7 @@ struct CacheTrainer::Impl {
 
 CacheTrainer::Impl::Impl(const CacheTrainOptions& options, const PhotonStreamInfo& stream,
                          GuideCache previous)
-    : emitted_(stream.emitted) {
+    : emitted_(stream.emitted), merges_alike_(options.merge_alike) {
   if (stream.emitted == 0 && stream.paths == 0)
     fail("the photon stream does not say how many particles were emitted");
   const bool goes_on = !previous.nodes.empty() || !previous.medium.nodes.empty();
@@ -189,9 +191,20 @@ void CacheTrainer::Impl::finish_surfaces() {
   clock_.particles = static_cast<double>(cache_.emitted);
   TrainingTree& tree = surfaces_.tree();
   tree.restate_exposure(clock_);
+  cells_before_merging_ = tree.size();
+  if (merges_alike_) merge_alike(surfaces_.rules().tree);
   tree.lend_mixtures();
   tree.store(cache_, surfaces_.rules().tree,
              clock_.particles > 0 ? clock_.photons / clock_.particles : 0);
+}
+
+void CacheTrainer::Impl::merge_alike(const TreeOptions& rules) {
+  TrainingTree& tree = surfaces_.tree();
+  const size_t before = tree.stored_bytes();
+  tree.merge_alike({surfaces_.rules().cell.components, rules.normal_spread, clock_.photons,
+                    sqr(rules.min_extent),
+                    clock_.particles > 0 ? clock_.photons / clock_.particles : 0});
+  bytes_saved_ = before - tree.stored_bytes();
 }
 
 // A cache of a scene without media gets no cell of them.
@@ -256,7 +269,9 @@ void CacheTrainer::Impl::summarise(CacheTrainSummary& summary) const {
   summary.dropped_direct = tally.dropped_direct + escape_tally_.dropped_direct;
   summary.weights_capped = tally.weights_capped;
   summary.cells = cache_.cells.size();
-  summary.cells_made = cache_.cells.size() - cells_before_;
+  summary.cells_before_merging = cells_before_merging_;
+  summary.bytes_saved = bytes_saved_;
+  summary.cells_made = cells_before_merging_ - cells_before_;
   count_cells(cache_, summary);
   if (!cache_.medium.cells.empty()) summary.media = summary_of(cache_.medium, media_.tally());
   summary.bytes = surfaces_.tree().bytes();

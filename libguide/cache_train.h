@@ -25,6 +25,8 @@ struct CacheTrainOptions {
   int max_cells = 200'000;             // 1..10^7, of surfaces and of media each
   float normal_spread = 0.9f;  // cells whose mean normal is shorter are split by orientation
   DirectLight direct = DirectLight::drop;
+  // At the end, cells of surfaces become one where their photons cannot tell their light apart.
+  bool merge_alike = false;
   MixturePrior prior;
   VmfPrior medium_prior;
 
@@ -48,7 +50,9 @@ struct MediumTrainSummary {
 struct CacheTrainSummary {
   uint64_t photons = 0, rejected = 0, dropped_direct = 0, escapes = 0;
   size_t cells = 0, cells_with_mixture = 0, cells_made = 0;
-  uint64_t weights_capped = 0;  // photons that weighed too much against their cell's mean
+  size_t cells_before_merging = 0;  // of surfaces; as cells where none were to be merged
+  size_t bytes_saved = 0;           // by merging, of the cache without its statistics
+  uint64_t weights_capped = 0;      // photons that weighed too much against their cell's mean
   double mean_components = 0, mean_effective_samples = 0, lost_mass = 0;
   size_t bytes = 0;  // memory of all cells at the end; it never depends on the number of photons
   double seconds = 0;

@@ -12,6 +12,7 @@
 # CASES            which, by name
 # SIZE SPP SEEDS   of the renders that are judged
 # REFERENCE_SPP PHOTONS ENTRIES    of references, caches, and fits
+# CACHE_TRAIN_FLAGS of all cases
 # LIMIT            seconds that one run of a tool may take
 # TIMED            1: judge times too
 .DELETE_ON_ERROR:
@@ -86,7 +87,8 @@ $(OUT)/.options/$(1): FORCE
 	@if cmp -s $$@.new $$@; then rm $$@.new; else mv $$@.new $$@; fi
 endef
 $(eval $(call stamp,methods,$(methods)))
-$(eval $(call stamp,sizes,$(SIZE) $(SPP) $(SEEDS) $(REFERENCE_SPP) $(PHOTONS) $(ENTRIES) $(TIMED)))
+$(eval $(call stamp,sizes,$(SIZE) $(SPP) $(SEEDS) $(REFERENCE_SPP) $(PHOTONS) $(ENTRIES) $(TIMED) \
+  $(CACHE_TRAIN_FLAGS)))
 $(eval $(call stamp,cases,$(CASES)))
 $(foreach c,$(CASES),$(eval $(call stamp,$(c),'$(shell grep -E "^$(c) +\|" $(table))')))
 
@@ -98,7 +100,7 @@ $(OUT)/inputs/done: $(STABILITY)/inputs.sh $(wildcard $(STABILITY)/*.awk) $(BIN)
 export INPUTS = $(abspath $(OUT))/inputs
 export TABLE = $(table)
 export METHODS = $(OUT)/.options/methods
-export BIN SIZE SPP SEEDS REFERENCE_SPP PHOTONS ENTRIES LIMIT TIMED
+export BIN SIZE SPP SEEDS REFERENCE_SPP PHOTONS ENTRIES LIMIT TIMED CACHE_TRAIN_FLAGS
 $(OUT)/%/verdicts.json: $(OUT)/.options/% $(OUT)/.options/methods $(OUT)/.options/sizes \
     $(OUT)/inputs/done $(wildcard $(STABILITY)/scenes/*.xml) $(tools)
 	@echo "stability: $*"

@@ -87,4 +87,16 @@ CellEvidence CellEvidence::share(double share) const {
   return result;
 }
 
+void CellEvidence::add(const CellEvidence& other) {
+  const CellSources& from = other.sums_;
+  sums_.light_all += from.light_all;
+  sums_.light_guided += from.light_guided;
+  sums_.light_guided2 += from.light_guided2;
+  sums_.camera_all += from.camera_all;
+  sums_.camera_guided += from.camera_guided;
+  sums_.camera_guided2 += from.camera_guided2;
+  sums_.camera_samples += from.camera_samples;
+  sums_.camera_looks += from.camera_looks;
+}
+
 }  // namespace waylight

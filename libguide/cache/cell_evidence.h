@@ -36,6 +36,11 @@ class CellEvidence {
 
   // As if it had seen a share of this.
   CellEvidence share(double share) const;
+  // As if it had seen what another did too.
+  void add(const CellEvidence& other);
+
+  // Effective samples of both kinds that the mixture took; 0 where photons alone were seen.
+  double samples() const { return light_samples() + camera_samples(); }
 
   const CellSources& sums() const { return sums_; }
 

@@ -31,6 +31,9 @@ class MomentBatch {
   float count_ = 0;
 };
 
+// Adds the moments of the photons of another cell, and their number. Not the flux.
+void add_moments(CellTraining& cell, const CellTraining& other);
+
 // Surface area that the photons of a cell cover: that of the rectangle whose uniform density has
 // their covariance in the plane of the mean normal, 12 sqrt(det) [a side of length l has variance
 // l^2 / 12]. Exact for rectangles in any orientation that are lit evenly. A disk comes out 5 % low,

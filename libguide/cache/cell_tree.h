@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "libguide/base/parallel.h"
 #include "libguide/cache/cell_split.h"
 #include "libguide/cache/training_clock.h"
 #include "libguide/spatial/orientation_tree.h"
@@ -42,6 +43,12 @@ class CellTree {
   template <typename Where, typename Child>
   void split_cells(size_t max_cells, const Where& where, const Child& child);
 
+  // Bottom-up: two sibling leaves become one wherever merge(lower, upper, split) gives a cell for
+  // both, an optional; the results are siblings in turn. Indices of cells change, their order does
+  // not, and the result does not depend on threads.
+  template <typename Merge>
+  void merge_siblings(const Merge& merge);
+
   // Restates when cells were made so that the photons since then stand for their particles at the
   // mean rate of the whole training; for a first stream they do.
   void restate_exposure(const TrainingClock& clock);
@@ -62,6 +69,11 @@ class CellTree {
   static constexpr size_t kMaxRelatives = 64;
 
   void split(uint32_t cell, const CellSplit& split, Cell lower, Cell upper);
+  bool is_leaf(uint32_t node) const { return nodes_[node].axis == kLeafAxis; }
+  void find_nodes();
+  std::vector<uint32_t> untried_pairs(std::vector<bool>& tried) const;
+  void remove_dead(const std::vector<bool>& dead);
+  void remove_unreached_nodes();
   std::vector<uint32_t> parents() const;
   float distance2(uint32_t a, uint32_t b) const {
     return (cells_[a].centre() - cells_[b].centre()).squaredNorm();
@@ -81,10 +93,15 @@ class CellTree {
 
 template <typename Cell>
 CellTree<Cell>::CellTree(std::vector<CacheNode> nodes, std::deque<Cell> cells)
-    : nodes_(std::move(nodes)),
-      cells_(std::move(cells)),
-      node_of_cell_(cells_.size()),
-      depth_(cells_.size()) {
+    : nodes_(std::move(nodes)), cells_(std::move(cells)) {
+  find_nodes();
+}
+
+// Which node is the leaf of each cell, and how deep.
+template <typename Cell>
+void CellTree<Cell>::find_nodes() {
+  node_of_cell_.resize(cells_.size());
+  depth_.resize(cells_.size());
   std::vector<uint8_t> depth(nodes_.size());
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
     const CacheNode& node = nodes_[i];
@@ -121,6 +138,84 @@ void CellTree<Cell>::split(uint32_t cell, const CellSplit& split, Cell lower, Ce
   node_of_cell_.push_back(child + 1);
   depth_[cell] += 1;
   depth_.push_back(depth_[cell]);
+}
+
+// A round has all pairs of leaves whose merging was not tried; those that merge may make pairs for
+// the next. In chunks, so that few cells are in memory twice.
+template <typename Cell>
+template <typename Merge>
+void CellTree<Cell>::merge_siblings(const Merge& merge) {
+  constexpr size_t kChunk = 1024;
+  std::vector<bool> tried(nodes_.size()), dead(cells_.size());
+  std::vector<std::optional<Cell>> merged;
+  for (std::vector<uint32_t> pairs; !(pairs = untried_pairs(tried)).empty();)
+    for (size_t first = 0; first < pairs.size(); first += kChunk) {
+      const auto chunk = std::span(pairs).subspan(first, std::min(kChunk, pairs.size() - first));
+      const auto cell_of = [&](size_t i, uint32_t upper) {
+        return nodes_[nodes_[chunk[i]].child + upper].child;
+      };
+      merged.assign(chunk.size(), std::nullopt);
+      parallel_for(chunk.size(), [&](size_t i) {
+        const CacheNode& node = nodes_[chunk[i]];
+        merged[i] =
+            merge(cells_[cell_of(i, 0)], cells_[cell_of(i, 1)], CellSplit{node.axis, node.split});
+      });
+      for (size_t i = 0; i < chunk.size(); ++i) {
+        if (!merged[i]) continue;
+        const uint32_t kept = cell_of(i, 0);
+        dead[cell_of(i, 1)] = true;
+        cells_[kept] = std::move(*merged[i]);
+        nodes_[chunk[i]] = {0, kept, kLeafAxis};
+      }
+    }
+  remove_unreached_nodes();
+  remove_dead(dead);
+  find_nodes();
+}
+
+template <typename Cell>
+std::vector<uint32_t> CellTree<Cell>::untried_pairs(std::vector<bool>& tried) const {
+  std::vector<uint32_t> pairs;
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    if (tried[i] || is_leaf(i) || !is_leaf(nodes_[i].child) || !is_leaf(nodes_[i].child + 1))
+      continue;
+    tried[i] = true;
+    pairs.push_back(i);
+  }
+  return pairs;
+}
+
+template <typename Cell>
+void CellTree<Cell>::remove_dead(const std::vector<bool>& dead) {
+  std::vector<uint32_t> index(cells_.size());
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < cells_.size(); ++i) {
+    if (dead[i]) continue;
+    index[i] = count;
+    if (i != count) cells_[count] = std::move(cells_[i]);
+    ++count;
+  }
+  cells_.erase(cells_.begin() + count, cells_.end());
+  for (CacheNode& node : nodes_)
+    if (node.axis == kLeafAxis) node.child = index[node.child];
+}
+
+// Children come after their parent and beside each other: in the same order they still do.
+template <typename Cell>
+void CellTree<Cell>::remove_unreached_nodes() {
+  std::vector<bool> reached(nodes_.size());
+  reached[0] = true;
+  std::vector<uint32_t> index(nodes_.size());
+  std::vector<CacheNode> kept;
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    if (!reached[i]) continue;
+    index[i] = static_cast<uint32_t>(kept.size());
+    kept.push_back(nodes_[i]);
+    if (!is_leaf(i)) reached[nodes_[i].child] = reached[nodes_[i].child + 1] = true;
+  }
+  for (CacheNode& node : kept)
+    if (node.axis != kLeafAxis) node.child = index[node.child];
+  nodes_ = std::move(kept);
 }
 
 template <typename Cell>

@@ -92,6 +92,10 @@ class OnlineMixture {
   // photons soon outweigh the old.
   void inherit_as_child(const OnlineMixture& parent, const Options& options);
   void forget();
+  // Adds the evidence of a mixture that learned from photons of the same light.
+  void add_evidence(const OnlineMixture& other);
+  // Statistics begin anew from the components: the next M-step gives the same ones again.
+  void replace_mixture(std::span<const Component> components);
 
   Record record_;
   Training training_;
@@ -186,9 +190,7 @@ void OnlineMixture<Lobes>::begin(std::span<const Point> batch, float effective_s
   const std::vector<Component> fit =
       Lobes::fit(batch, components_for(effective_samples, options), options.prior);
   if (fit.empty()) return;
-  std::vector<Statistics> statistics;
-  for (const Component& c : fit) statistics.push_back(statistics_of(c));
-  set_mixture(fit, statistics);
+  replace_mixture(fit);
   training_.samples = effective_samples;
   training_.step = 1;
 }
@@ -226,6 +228,23 @@ void OnlineMixture<Lobes>::inherit_as_child(const OnlineMixture& parent, const O
   carried_over_ = parent.carried_over_;
   pending_ = parent.pending_;
   pending_count_ = parent.pending_count_;
+}
+
+template <typename Lobes>
+void OnlineMixture<Lobes>::add_evidence(const OnlineMixture& other) {
+  record_.photon_count += other.record_.photon_count;
+  training_.weight_sum += other.training_.weight_sum;
+  training_.weight_sum2 += other.training_.weight_sum2;
+  training_.samples += other.training_.samples;
+  training_.step = std::max(training_.step, other.training_.step);
+  weigh_evidence();
+}
+
+template <typename Lobes>
+void OnlineMixture<Lobes>::replace_mixture(std::span<const Component> components) {
+  std::vector<Statistics> statistics;
+  for (const Component& c : components) statistics.push_back(statistics_of(c));
+  set_mixture(components, statistics);
 }
 
 template <typename Lobes>

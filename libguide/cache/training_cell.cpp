@@ -123,18 +123,51 @@ size_t TrainingCell::update(const CellTrainingOptions& options) {
 // prior.
 void TrainingCell::turn_to_photons() {
   const Vec3 normal = mean_normal(training_, record_.normal);
-  if (training_.step > 0) {
-    if (training_.normal_mean.norm() < kTurnAgreement || normal.dot(record_.normal) > kTurnCosine)
-      return;
-    const Frame from(record_.normal), to(normal);
-    Mat3 rotation;
-    for (int i = 0; i < 3; ++i) rotation.col(i) = to.to_local(from.to_world(Vec3::Unit(i)));
-    for (uint32_t k = 0; k < record_.component_count; ++k) {
-      components_[k] = carry(components_[k], rotation);
-      statistics_[k] = statistics_of(components_[k]);
-    }
+  if (training_.step > 0 &&
+      (training_.normal_mean.norm() < kTurnAgreement || normal.dot(record_.normal) > kTurnCosine))
+    return;
+  turn_to(normal);
+}
+
+void TrainingCell::turn_to(const Vec3& normal) {
+  const Frame from(record_.normal), to(normal);
+  Mat3 rotation;
+  for (int i = 0; i < 3; ++i) rotation.col(i) = to.to_local(from.to_world(Vec3::Unit(i)));
+  for (uint32_t k = 0; k < record_.component_count; ++k) {
+    components_[k] = carry(components_[k], rotation);
+    statistics_[k] = statistics_of(components_[k]);
   }
   record_.normal = normal;
+}
+
+// Areas add up better than the area of all photons follows from their covariance; later photons
+// take it from there. So the flux is restated for the area that irradiance() will take.
+void TrainingCell::unite(const TrainingCell& sibling, const CellReach& reach, double now,
+                         double min_area) {
+  const double both = area(min_area) + sibling.area(min_area);
+  const double exposures = exposure(now, min_area) + sibling.exposure(now, min_area);
+  own_ = extent();
+  own_.extend(sibling.extent());
+  inherited_ = own_;
+  united_ = reach;
+  own_count_ += sibling.own_count_;
+  add_moments(training_, sibling.training_);
+  training_.inherited_area = static_cast<float>(both);
+  training_.flux =
+      (training_.flux + sibling.training_.flux) * (both > 0 ? area(min_area) / both : 1);
+  training_.born = std::clamp(now - (both > 0 ? exposures / both : 0), 0.0, now);
+  evidence_.add(sibling.evidence_);
+  add_evidence(sibling);
+}
+
+void TrainingCell::take_mixture(std::span<const GaussianComponent> mixture) {
+  replace_mixture(mixture);
+}
+
+double TrainingCell::irradiance_samples() const {
+  const double share =
+      record_.photon_count > 0 ? record_.effective_samples / record_.photon_count : 1;
+  return (training_.count + kInheritedPhotons) * std::min(share, 1.0) + evidence_.samples();
 }
 
 std::span<WeightedPoint> TrainingCell::batch_on_disk(Batch& batch) const {
@@ -160,8 +193,6 @@ TrainingCell TrainingCell::child(const CellSplit& split, bool upper, double now,
   return child;
 }
 
-Bounds TrainingCell::box(const CellReach& reach) { return {reach.min, reach.max}; }
-
 // The box of n photons lacks about 1 / n of what they are spread over.
 Bounds TrainingCell::extent() const {
   if (own_count_ >= kOwnExtentPhotons) return own_;
@@ -171,6 +202,7 @@ Bounds TrainingCell::extent() const {
 // Where most photons of a cell lie in front of a wall and a few stray ones behind it, their box goes
 // through the wall, but their standard deviations hardly do.
 CellReach TrainingCell::reach() const {
+  if (united_) return *united_;
   const Bounds box = extent();
   if (box.empty()) return {};
   const Vec3 room = Vec3::Constant(kRoom * box.radius());
@@ -181,6 +213,12 @@ CellReach TrainingCell::reach() const {
   reach.min = reach.min.cwiseMax(training_.position_mean - spread);
   reach.max = reach.max.cwiseMin(training_.position_mean + spread);
   return reach;
+}
+
+Bounds TrainingCell::lit() const {
+  const Bounds box = extent();
+  const CellReach within = reach();
+  return {box.min.cwiseMax(within.min), box.max.cwiseMin(within.max)};
 }
 
 void TrainingCell::inherit_mixture(const TrainingCell& from, float share) {
@@ -198,10 +236,13 @@ void TrainingCell::inherit_irradiance(CellTraining& child, double now, double mi
   child.born = now - exposure;
 }
 
-float TrainingCell::photon_irradiance(double now, double min_area) const {
+double TrainingCell::area(double min_area) const {
   const bool own = training_.count >= kOwnAreaPhotons || training_.inherited_area <= 0;
-  const double area = own ? photon_area(training_) : training_.inherited_area;
-  const double spread = std::max(area, min_area) * (now - training_.born);
+  return std::max(own ? photon_area(training_) : double{training_.inherited_area}, min_area);
+}
+
+float TrainingCell::photon_irradiance(double now, double min_area) const {
+  const double spread = exposure(now, min_area);
   const double limit = std::numeric_limits<float>::max();
   return spread > 0 ? static_cast<float>(std::min(training_.flux / spread, limit)) : 0.0f;
 }

@@ -1,6 +1,8 @@
 #pragma once
 // One cell of an illumination cache while it is trained.
 
+#include <optional>
+
 #include "libguide/cache/cell_evidence.h"
 #include "libguide/cache/cell_split.h"
 #include "libguide/cache/online_mixture.h"
@@ -49,7 +51,7 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
                const CellEvidence& evidence)
       : OnlineMixture(cell, training, components, statistics),
         evidence_(evidence),
-        inherited_(box(reach)) {}
+        inherited_{reach.min, reach.max} {}
 
   // The photons of this cell in one block: block[indices[i]] in that order. Returns how many
   // weighed too much.
@@ -71,6 +73,20 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   // evidence, in (0, 1], comes with it.
   void inherit_mixture(const TrainingCell& from, float share);
 
+  // The cell with its mixture on the disk of another normal, to first order.
+  void turn_to(const Vec3& normal);
+
+  // Becomes one cell with its sibling, as far as all but the mixture goes: irradiance is flux over
+  // the area of both, evidence adds up, and it has the given reach.
+  void unite(const TrainingCell& sibling, const CellReach& reach, double now, double min_area);
+  // The mixture of both, over the disk of the cell's normal.
+  void take_mixture(std::span<const GaussianComponent> mixture);
+
+  // Effective photons and samples behind the irradiance, what was inherited included.
+  double irradiance_samples() const;
+  // Area times photons of the training while the cell was there: the irradiance is flux over it.
+  double exposure(double now, double min_area) const { return area(min_area) * (now - born()); }
+
   // How photons and samples of camera paths are weighed from now on; see irradiance().
   void balance_sources(double now, double min_area, double photons_per_particle);
 
@@ -80,6 +96,7 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   float irradiance(double now, double min_area, double photons_per_particle) const;
 
   const Vec3& centre() const { return training_.position_mean; }
+  Bounds lit() const;  // the box of its photons within its reach
   // Of its own photons once there are enough, and of those of the cells that it was made from.
   CellReach reach() const;
   // When the cell was made, in photons of the whole training.
@@ -102,13 +119,14 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   void turn_to_photons();
   void inherit_irradiance(CellTraining& child, double now, double min_area) const;
   std::span<WeightedPoint> batch_on_disk(Batch& batch) const;
-  static Bounds box(const CellReach& reach);
   Bounds extent() const;
+  double area(double min_area) const;
 
   CellEvidence evidence_;
   Bounds own_;  // of the photons since the cell was made, in this training
   Bounds inherited_ = {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
   uint32_t own_count_ = 0;
+  std::optional<CellReach> united_;  // the reach of a cell that was merged
 };
 
 }  // namespace waylight

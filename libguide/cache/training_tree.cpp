@@ -71,6 +71,12 @@ void TrainingTree::split_full_cells(const TreeOptions& tree, const CellTrainingO
   });
 }
 
+void TrainingTree::merge_alike(const CellMergeOptions& options) {
+  merge_siblings([&](const TrainingCell& lower, const TrainingCell& upper, const CellSplit& split) {
+    return merge_if_alike(lower, upper, split, options);
+  });
+}
+
 void TrainingTree::lend_mixtures() {
   const auto needs = [](const TrainingCell& cell) { return cell.components().empty(); };
   const auto can_lend = [](const TrainingCell& borrower, const TrainingCell& lender) {
@@ -78,6 +84,13 @@ void TrainingTree::lend_mixtures() {
   };
   for (const CellLoan& loan : find_loans(needs, can_lend))
     (*this)[loan.borrower].inherit_mixture((*this)[loan.lender], loan.share);
+}
+
+size_t TrainingTree::stored_bytes() const {
+  size_t components = 0;
+  for (const TrainingCell& cell : cells()) components += cell.components().size();
+  return nodes().size() * sizeof(CacheNode) + size() * (sizeof(CacheCell) + sizeof(CellReach)) +
+         components * sizeof(GaussianComponent);
 }
 
 void TrainingTree::store(GuideCache& cache, const TreeOptions& tree,

@@ -1,6 +1,7 @@
 #pragma once
 // The cells of surfaces in training.
 
+#include "libguide/cache/cell_merge.h"
 #include "libguide/cache/cell_tree.h"
 #include "libguide/cache/training_cell.h"
 
@@ -27,8 +28,14 @@ class TrainingTree : public CellTree<TrainingCell> {
   // of the whole training so far.
   void split_full_cells(const TreeOptions& tree, const CellTrainingOptions& options, double now);
 
+  // Puts one cell in place of two siblings wherever they know of the same light.
+  void merge_alike(const CellMergeOptions& options);
+
   // Cells without a mixture inherit that of a relative nearby whose surface faces the same way.
   void lend_mixtures();
+
+  // Of the cache without its training statistics.
+  size_t stored_bytes() const;
 
   // photons_per_particle: of the whole training; 0 where no particles were emitted.
   void store(GuideCache& cache, const TreeOptions& tree, double photons_per_particle) const;

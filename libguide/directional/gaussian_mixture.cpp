@@ -3,6 +3,7 @@
 #include <array>
 
 #include "libguide/directional/frame_carry.h"
+#include "libguide/directional/gaussian_quadrature.h"
 
 namespace waylight {
 namespace {
@@ -118,17 +119,9 @@ float mass_inside(const GaussianMixture& mixture, float radius2) {
   double mass = 0;
   for (int k = 0; k < mixture.count(); ++k) {
     const GaussianComponent c = mixture.component(k);
-    const float l_xx = std::sqrt(c.cov_xx), slope = c.cov_xy / c.cov_xx;
-    const float l_yy = safe_sqrt(c.cov_yy - slope * c.cov_xy);
     int inside = 0;
-    for (int i = 0; i < kRings * kSpokes; ++i) {
-      const int ring = i / kSpokes, spoke = i % kSpokes;
-      // Every other ring is turned by half a spoke.
-      const Vec2 z = square_to_gaussian(
-          {(ring + 0.5f) / kRings, (spoke + 0.25f + 0.5f * (ring % 2)) / kSpokes});
-      const Vec2 y(c.mean_x + l_xx * z.x(), c.mean_y + slope * l_xx * z.x() + l_yy * z.y());
-      inside += y.squaredNorm() <= radius2;
-    }
+    visit_quantiles(c, kRings, kSpokes,
+                    [&](const Vec2& y) { inside += y.squaredNorm() <= radius2; });
     mass += c.weight * inside / (kRings * kSpokes);
   }
   return static_cast<float>(mass);

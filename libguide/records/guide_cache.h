@@ -64,8 +64,8 @@ struct CellTraining {
 // What photons and camera paths each say of a cell, where there are camera paths: sums of weights,
 // of the weights that the mixture takes (as a rule those of indirect light), and of the squares of
 // these; how many samples of camera paths the mixture took, and how many looked for light. A
-// sample's weight is the luminance of its irradiance. Of those since the cell was made, and of a few
-// of its parent's.
+// sample's weight is the luminance of its irradiance. Of those since the cell was made, and of a
+// few of its parent's.
 struct CellSources {
   double light_all = 0, light_guided = 0, light_guided2 = 0;
   double camera_all = 0, camera_guided = 0, camera_guided2 = 0;

@@ -11,7 +11,7 @@ stage() {
 make_caches() {
   stage scene.brdf brdf-fit "$scene" $flags --elevations 16 --directions 64 &&
     stage scene.photons photon-trace "$scene" $flags --count "$photons" &&
-    stage scene.cache cache-train --photons "$folder/scene.photons" &&
+    stage scene.cache cache-train --photons "$folder/scene.photons" ${CACHE_TRAIN_FLAGS:-} &&
     stage reduced.cache cache-reduce "$folder/scene.cache" &&
     stage reduced.brdf cache-reduce "$folder/scene.brdf"
 }

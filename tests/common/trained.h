@@ -15,11 +15,12 @@ struct Trained {
   RenderCaches caches() const { return {&brdf, GuideCacheView(guide)}; }
 };
 
-inline Trained train(const Scene& scene, uint64_t photons) {
+inline Trained train(const Scene& scene, uint64_t photons, bool merge_alike = false) {
   PhotonTraceOptions trace;
   trace.count = photons;
   CacheTrainOptions options;
   options.photons_per_cell = 1000;
+  options.merge_alike = merge_alike;
   options.direct = DirectLight::drop;  // next-event estimation has it; kept, it costs 15 %
   CacheTrainer trainer(options, {scene.bounds(), photons, 0});
   trace_photons(

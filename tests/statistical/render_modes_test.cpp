@@ -76,6 +76,14 @@ TEST_F(SlowRenderModes, ProductGuidingHasTheMeanOfPathTracing) {
   EXPECT_LT(share_beyond_three(image, *reference), 0.02);
 }
 
+TEST_F(SlowRenderModes, CellsMergedByTheirLightHaveTheMeanOfPathTracing) {
+  const Trained merged = train(*scene, 200'000, true);
+  EXPECT_LT(merged.guide.cells.size(), trained->guide.cells.size());
+  const Image image = render_mode(*scene, merged, RenderMode::illumination, 1024, 5);
+  EXPECT_LT(std::abs(mean_z(image, *reference)), 3.5);
+  EXPECT_LT(share_beyond_three(image, *reference), 0.02);
+}
+
 TEST_F(SlowRenderModes, ModeAutoHasTheMeanOfPathTracing) {
   RenderSummary summary;
   const Image image = render_mode(*scene, *trained, RenderMode::automatic, 1024, 5, &summary);

@@ -81,6 +81,8 @@ nlohmann::ordered_json stats_of(const Provenance& provenance, Quantity quantity,
                 {"weights_capped", s.weights_capped},
                 {"cells", s.cells},
                 {"cells_made", s.cells_made},
+                {"cells_before_merging", s.cells_before_merging},
+                {"bytes_saved", s.bytes_saved},
                 {"cells_with_mixture", s.cells_with_mixture},
                 {"mean_components", s.mean_components},
                 {"mean_effective_samples", s.mean_effective_samples},
@@ -101,7 +103,8 @@ void report_media(const ToolRun& run, const MediumTrainSummary& s) {
                         format_bytes(double(s.bytes))));
 }
 
-void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrainSummary& s) {
+void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrainSummary& s,
+            bool merges) {
   const double photons = static_cast<double>(s.photons + s.media.photons);
   const char* particles = stream.quantity == Quantity::importance ? "importons"
                           : stream.paths == 0                     ? "photons"
@@ -112,6 +115,9 @@ void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrain
   run.print(
       fmt::format("{} cells, {} with a mixture of {:.1f} components and {:.0f} effective samples",
                   s.cells, s.cells_with_mixture, s.mean_components, s.mean_effective_samples));
+  if (merges)
+    run.print(fmt::format("{} cells became {} where their light is the same: {} saved",
+                          s.cells_before_merging, s.cells, format_bytes(double(s.bytes_saved))));
   run.print(fmt::format(
       "{:.2f} % of the mixtures' mass lies outside the sphere; {} in training, peak {}",
       100 * s.lost_mass, format_bytes(double(s.bytes)), format_bytes(double(peak_memory_bytes()))));
@@ -140,7 +146,7 @@ void cache_train(const ToolRun& run, const ToolInfo& tool, const CacheTrainArgum
   file.provenance = provenance(run, tool, arguments, reader);
   run.stop_if_interrupted();
   write_cache(arguments.output, file);
-  report(run, header.stream, summary);
+  report(run, header.stream, summary, arguments.options.merge_alike);
   run.write_stats(stats_of(file.provenance, file.cache.quantity, summary));
 }
 
