@@ -82,7 +82,7 @@ TEST(CellMerge, SiblingsWithTheSameLightMerge) {
   CacheTrainSummary summary;
   const GuideCache all = train(photons, false), merged = train(photons, true, &summary);
   EXPECT_GT(all.cells.size(), 100u);
-  EXPECT_LT(merged.cells.size(), all.cells.size() / 5);
+  EXPECT_LT(merged.cells.size(), all.cells.size() / 2);
   EXPECT_EQ(summary.cells_before_merging, all.cells.size());
   EXPECT_EQ(summary.cells, merged.cells.size());
   EXPECT_GT(summary.bytes_saved, 0u);
