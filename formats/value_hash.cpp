@@ -23,8 +23,9 @@ void ValueHash::add(const std::shared_ptr<const Bitmap>& bitmap) {
 
 void ValueHash::add(const std::shared_ptr<const VolumeGrid>& grid) {
   add_shared(grid, [](ValueHash& hash, const VolumeGrid& g) {
-    const auto& [size, channels, nearest, values, grid_to_world] = g;
-    hash.add_all(size, channels, values, grid_to_world);
+    const auto& [voxels, nearest, grid_to_world] = g;
+    std::apply([&](const auto&... parts) { hash.add_all(parts...); }, voxels.parts());
+    hash.add_all(grid_to_world);
     if (nearest) hash.add_all(nearest);
   });
 }

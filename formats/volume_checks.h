@@ -3,14 +3,17 @@
 
 #include <string>
 
-#include "libguide/medium/medium.h"
+#include "libguide/medium/voxel_bricks.h"
 
 namespace waylight {
 
-// Throws Error unless each size is positive and there are at most 2^30 voxels.
+// Throws Error unless the grid has voxels, at most 2^22 along an axis, where single precision still
+// resolves a quarter of one, and spans at most 2^24 nodes of 128^3.
 void check_volume_size(const std::string& path, int64_t x, int64_t y, int64_t z);
 
-// Throws Error at the first value that is not finite; negative ones become 0.
-void finish_volume(VolumeGrid& grid, const std::string& path);
+// The voxels of the file `path`. Throws Error at the first value that is not finite, and where more
+// than 2^22 bricks hold other than one value; negative values become 0.
+VoxelBricks checked_bricks(const std::string& path, const Eigen::Vector3i& size, int channels,
+                           const VoxelSource& voxels);
 
 }  // namespace waylight

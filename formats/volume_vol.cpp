@@ -39,43 +39,45 @@ VolHeader read_header(ByteReader& bytes) {
   return header;
 }
 
+class VolVoxels : public VoxelSource {
+ public:
+  VolVoxels(const VolHeader& header, ByteReader& bytes)
+      : header_(header),
+        values_(bytes.take(size_t(header.x) * header.y * header.z * header.channels * width())) {}
+
+  bool constant(const VoxelBox& /*box*/, float* /*value*/) const override { return false; }
+  void read(const VoxelBox& box, float* values) const override {
+    const size_t count = size_t(box.extent().x()) * header_.channels;
+    for (int z = box.first.z(); z <= box.last.z(); ++z)
+      for (int y = box.first.y(); y <= box.last.y(); ++y, values += count)
+        read_row((size_t(z) * header_.y + y) * header_.x + box.first.x(), count, values);
+  }
+
+ private:
+  size_t width() const { return header_.type == kFloat32 ? sizeof(float) : 1; }
+  void read_row(size_t voxel, size_t count, float* values) const {
+    const char* row = &values_[voxel * header_.channels * width()];
+    if (header_.type == kFloat32)
+      std::memcpy(values, row, count * sizeof(float));
+    else
+      std::transform(row, row + count, values,
+                     [](char byte) { return float(static_cast<uint8_t>(byte)) / 255; });
+  }
+
+  VolHeader header_;
+  std::string_view values_;
+};
+
 }  // namespace
 
 VolumeGrid read_vol(const std::string& path) {
   const std::string file = read_whole_file(path);
   ByteReader bytes(file, path);
   const VolHeader header = read_header(bytes);
-  VolumeGrid grid;
-  grid.size = {header.x, header.y, header.z};
-  grid.channels = header.channels;
-  grid.grid_to_world = box_to_world(header, path);
-  const size_t count = size_t(header.x) * header.y * header.z * header.channels;
-  if (header.type == kFloat32) {
-    const std::string_view data = bytes.take(count * sizeof(float));
-    grid.values.resize(count);
-    std::memcpy(grid.values.data(), data.data(), data.size());
-  } else {
-    for (char byte : bytes.take(count))
-      grid.values.push_back(static_cast<float>(static_cast<uint8_t>(byte)) / 255);
-  }
-  finish_volume(grid, path);
-  return grid;
-}
-
-void check_volume_size(const std::string& path, int64_t x, int64_t y, int64_t z) {
-  constexpr int64_t kMaxVoxels = int64_t{1} << 30;
-  if (x <= 0 || y <= 0 || z <= 0) fail("\"{}\": the grid of {} x {} x {} is empty", path, x, y, z);
-  if (x > kMaxVoxels || y > kMaxVoxels || x * y > kMaxVoxels || z > kMaxVoxels / (x * y))
-    fail("\"{}\": {} x {} x {} voxels are more than 2^30; crop or resample the grid", path, x, y,
-         z);
-}
-
-void finish_volume(VolumeGrid& grid, const std::string& path) {
-  for (size_t i = 0; i < grid.values.size(); ++i) {
-    if (!std::isfinite(grid.values[i]))
-      fail("\"{}\": the value of voxel {} is not finite", path, i / grid.channels);
-    grid.values[i] = std::max(grid.values[i], 0.0f);
-  }
+  const Mat4 to_world = box_to_world(header, path);
+  const VolVoxels voxels(header, bytes);
+  const Eigen::Vector3i size(header.x, header.y, header.z);
+  return {checked_bricks(path, size, header.channels, voxels), false, to_world};
 }
 
 }  // namespace waylight

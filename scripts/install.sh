@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 packages=(
-  libembree-dev libopenexr-dev libopenvdb-dev libnanovdb-dev libboost-iostreams-dev libceres-dev
+  libembree-dev libopenexr-dev libopenvdb-dev libboost-iostreams-dev libceres-dev
   libcli11-dev libflatbuffers-dev flatbuffers-compiler libtbb-dev libeigen3-dev libpugixml-dev
   libtinyobjloader-dev libstb-dev libfmt-dev nlohmann-json3-dev zlib1g-dev libxxhash-dev
   libgtest-dev libbenchmark-dev cmake ninja-build g++ make gnuplot-nox jq

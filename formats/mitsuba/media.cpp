@@ -69,9 +69,8 @@ void check_albedo(const Element& element, float least, float most) {
 void check_albedo(const Element& element, const VolumeTexture& albedo) {
   if (const Color* color = std::get_if<Color>(&albedo))
     return check_albedo(element, color->minCoeff(), color->maxCoeff());
-  const std::vector<float>& values = std::get<std::shared_ptr<const VolumeGrid>>(albedo)->values;
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  check_albedo(element, *least, *most);
+  const auto [least, most] = std::get<std::shared_ptr<const VolumeGrid>>(albedo)->voxels.range();
+  check_albedo(element, least, most);
 }
 
 // A colour that may be written as a volume of one value.
@@ -143,8 +142,7 @@ bool absorbs(const Medium& medium) {
     return (homogeneous->albedo < 1).any();
   const VolumeTexture& albedo = std::get<HeterogeneousMedium>(medium.coefficients).albedo;
   if (const Color* color = std::get_if<Color>(&albedo)) return (*color < 1).any();
-  const std::vector<float>& values = std::get<std::shared_ptr<const VolumeGrid>>(albedo)->values;
-  return std::any_of(values.begin(), values.end(), [](float value) { return value < 1; });
+  return std::get<std::shared_ptr<const VolumeGrid>>(albedo)->voxels.range().least < 1;
 }
 
 Medium import_new(ImportContext& context, const Element& element) {

@@ -9,8 +9,7 @@ void check_radiance(const Element& element, const VolumeTexture& radiance) {
     if (negative(color->minCoeff())) fail_at(element, "its emission is negative");
     return;
   }
-  const std::vector<float>& values = std::get<std::shared_ptr<const VolumeGrid>>(radiance)->values;
-  if (std::any_of(values.begin(), values.end(), negative))
+  if (negative(std::get<std::shared_ptr<const VolumeGrid>>(radiance)->voxels.range().least))
     fail_at(element, "the grid of its emission has negative values");
 }
 

@@ -40,10 +40,10 @@ Mat4 box_property(ImportContext& context, Properties& properties, const Mat4& of
 void rescale(Properties& properties, VolumeGrid& grid) {
   if (!properties.has("max_value")) return;
   const float wanted = properties.number("max_value", 1);
-  const float most = *std::max_element(grid.values.begin(), grid.values.end());
+  const float most = grid.voxels.range().most;
   if (!(wanted >= 0)) fail_at(properties.element(), "its max_value is negative");
   if (!(most > 0)) return;
-  for (float& value : grid.values) value *= wanted / most;
+  grid.voxels.scale(wanted / most);
 }
 
 void read_lookup(Properties& properties, VolumeGrid& grid) {

@@ -71,15 +71,12 @@ float density_at(const CloudOptions& options, const std::vector<Puff>& puffs, fl
   return smooth_step(hull / options.edge) * lerp(0.55f, 1, noise);
 }
 
-VolumeGrid empty_box(int resolution) {
-  VolumeGrid grid;
-  const float voxel = 2 * kHalf.x() / resolution;
-  grid.size = (2 / voxel * kHalf).array().round().cast<int>();
-  grid.values.resize(size_t(grid.size.x()) * grid.size.y() * grid.size.z());
-  const Vec3 side = voxel * grid.size.cast<float>();
-  grid.grid_to_world.topLeftCorner<3, 3>() = side.asDiagonal();
-  grid.grid_to_world.topRightCorner<3, 1>() = -side / 2;
-  return grid;
+// [0,1]^3 to a box about the origin.
+Mat4 box_of(const Vec3& side) {
+  Mat4 to_world = Mat4::Identity();
+  to_world.topLeftCorner<3, 3>() = side.asDiagonal();
+  to_world.topRightCorner<3, 1>() = -side / 2;
+  return to_world;
 }
 
 }  // namespace
@@ -96,19 +93,20 @@ void CloudOptions::validate() const {
 VolumeGrid make_cloud(const CloudOptions& options) {
   options.validate();
   const std::vector<Puff> puffs = grow(options);
-  VolumeGrid grid = empty_box(options.resolution);
   const float voxel = 2 * kHalf.x() / options.resolution;
-  const Vec3 corner = grid.grid_to_world.topRightCorner<3, 1>();
-  parallel_for(grid.size.z(), [&](size_t z) {
-    float* value = &grid.values[z * grid.size.x() * grid.size.y()];
-    for (int y = 0; y < grid.size.y(); ++y)
-      for (int x = 0; x < grid.size.x(); ++x) {
+  const Eigen::Vector3i size = (2 / voxel * kHalf).array().round().cast<int>();
+  const Vec3 side = voxel * size.cast<float>(), corner = -side / 2;
+  std::vector<float> values(size_t(size.x()) * size.y() * size.z());
+  parallel_for(size.z(), [&](size_t z) {
+    float* value = &values[z * size.x() * size.y()];
+    for (int y = 0; y < size.y(); ++y)
+      for (int x = 0; x < size.x(); ++x) {
         const Vec3 index(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
         const Vec3 p = corner + voxel * (index + Vec3::Constant(0.5f));
         *value++ = density_at(options, puffs, 1.5f * voxel, p);
       }
   });
-  return grid;
+  return {VoxelBricks(size, 1, values), false, box_of(side)};
 }
 
 }  // namespace waylight

@@ -10,16 +10,14 @@ namespace {
 constexpr float kMinCandidates = 4;  // tentative collisions expected along a ray that sees a medium
 constexpr float kFaint = 0.05f;      // transmittance below which roulette ends the walk
 
-bool is_positive(float value) { return value > 0; }
-
 }  // namespace
 
 bool emits(const MediumEmission& emission) {
   if (!(emission.scale > 0).any()) return false;
   if (const Color* constant = std::get_if<Color>(&emission.radiance))
     return (*constant * emission.scale > 0).any();
-  const auto& values = std::get<std::shared_ptr<const VolumeGrid>>(emission.radiance)->values;
-  return std::any_of(values.begin(), values.end(), is_positive);
+  const auto& grid = std::get<std::shared_ptr<const VolumeGrid>>(emission.radiance);
+  return grid->voxels.range().most > 0;
 }
 
 Color MediumTracker::emission(const Ray& ray, float t_max, Sampler& sampler) const {

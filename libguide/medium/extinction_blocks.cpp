@@ -3,15 +3,26 @@
 namespace waylight {
 namespace {
 
-// Voxels along the side of a block: small grids keep about sixteen blocks along their longest axis.
-int side_of(const Eigen::Vector3i& size) { return std::clamp(size.maxCoeff() / 16, 1, 8); }
+constexpr int64_t kMaxBlocks = int64_t{1} << 21;  // 25 MB
+
+Eigen::Vector3i counts_of(const Eigen::Vector3i& size, int side) {
+  return ((size.array() + (side - 1)) / side).matrix();
+}
+
+// Voxels along the side of a block: small grids keep about sixteen blocks along their longest axis,
+// and blocks grow where a wide grid would have too many of them.
+int side_of(const Eigen::Vector3i& size) {
+  int side = std::clamp(size.maxCoeff() / 16, 1, 8);
+  while (counts_of(size, side).cast<int64_t>().prod() > kMaxBlocks) side *= 2;
+  return side;
+}
 
 }  // namespace
 
 ExtinctionBlocks::ExtinctionBlocks(const VolumeGrid& density, float scale)
-    : side_(side_of(density.size)), to_voxels_(density) {
-  counts_ = ((density.size.array() + side_ - 1) / side_).matrix();
-  extent_ = density.size.cast<float>() / static_cast<float>(side_);
+    : side_(side_of(density.size())), to_voxels_(density) {
+  counts_ = counts_of(density.size(), side_);
+  extent_ = density.size().cast<float>() / static_cast<float>(side_);
   blocks_.reserve(static_cast<size_t>(counts_.x()) * counts_.y() * counts_.z());
   for (int z = 0; z < counts_.z(); ++z)
     for (int y = 0; y < counts_.y(); ++y)
@@ -24,23 +35,20 @@ ExtinctionBlocks::ExtinctionBlocks(const VolumeGrid& density, float scale)
 ExtinctionBounds ExtinctionBlocks::bounds_of(const VolumeGrid& density, float scale,
                                              const Eigen::Vector3i& block) const {
   const Eigen::Vector3i ones = Eigen::Vector3i::Ones();
-  const Eigen::Vector3i first = (block * side_ - ones).cwiseMax(0);
-  const Eigen::Vector3i last = ((block + ones) * side_).cwiseMin(density.size - ones);
+  const VoxelBox voxels{(block * side_ - ones).cwiseMax(0),
+                        ((block + ones) * side_).cwiseMin(density.size() - ones)};
   ExtinctionBounds bounds{kInfinity, 0, 0};
   double sum = 0;
-  size_t count = 0;
-  for (int z = first.z(); z <= last.z(); ++z)
-    for (int y = first.y(); y <= last.y(); ++y) {
-      const size_t row = (size_t(z) * density.size.y() + y) * density.size.x();
-      const size_t c = density.channels;
-      for (size_t i = (row + first.x()) * c; i < (row + last.x() + 1) * c; ++i, ++count) {
-        const float value = scale * density.values[i];
-        bounds.least = std::min(bounds.least, value);
-        bounds.most = std::max(bounds.most, value);
-        sum += value;
-      }
+  density.voxels.visit(voxels, [&](const float* values, int64_t count) {
+    for (int c = 0; c < density.voxels.channels(); ++c) {
+      const float value = scale * values[c];
+      bounds.least = std::min(bounds.least, value);
+      bounds.most = std::max(bounds.most, value);
+      sum += static_cast<double>(count) * value;
     }
-  bounds.mean = static_cast<float>(sum / static_cast<double>(count));
+  });
+  const auto count = static_cast<double>(voxels.count() * density.voxels.channels());
+  bounds.mean = static_cast<float>(sum / count);
   return bounds;
 }
 

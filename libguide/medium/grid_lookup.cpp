@@ -3,66 +3,45 @@
 namespace waylight {
 namespace {
 
-// Offsets of the two neighbours along an axis, in values, and the share of the second.
-struct AxisLookup {
-  size_t first, second;
-  float share;
-};
-
-AxisLookup neighbours(float x, int size, size_t stride) {
-  const float centred = x - 0.5f;
-  const float low = std::floor(centred);
-  const int i = static_cast<int>(low);
-  const auto offset = [&](int k) {
-    return static_cast<size_t>(std::clamp(k, 0, size - 1)) * stride;
-  };
-  return {offset(i), offset(i + 1), centred - low};
-}
-
 bool inside(const Vec3& x, const Eigen::Vector3i& size) {
   return (x.array() >= 0).all() && (x.array() <= size.cast<float>().array()).all();
 }
 
-size_t nearest(const VolumeGrid& grid, const Vec3& x) {
-  const Eigen::Vector3i i = x.cast<int>().cwiseMin(grid.size - Eigen::Vector3i::Ones());
-  return (size_t(i.z()) * grid.size.y() + i.y()) * grid.size.x() + i.x();
+const float* nearest(const VoxelBricks& voxels, const Vec3& x) {
+  return voxels.at(x.cast<int>().cwiseMin((voxels.size().array() - 1).matrix()));
 }
 
-// value(offset) of one voxel, which is `channels` values.
-template <typename Value, typename Read>
-Value interpolate(const VolumeGrid& grid, const Vec3& voxel, const Read& value) {
-  const size_t c = grid.channels, row = c * grid.size.x(), slice = row * grid.size.y();
-  const AxisLookup x = neighbours(voxel.x(), grid.size.x(), c);
-  const AxisLookup y = neighbours(voxel.y(), grid.size.y(), row);
-  const AxisLookup z = neighbours(voxel.z(), grid.size.z(), slice);
+// read(p) is the value of the voxel at p, which is `channels` floats.
+template <int channels, typename Value, typename Read>
+Value interpolate(const VoxelBricks& voxels, const Vec3& x, const Read& read) {
+  const Vec3 centred = x.array() - 0.5f, low = centred.array().floor(), share = centred - low;
   const auto mix = [](const Value& a, const Value& b, float t) { return Value(a + (b - a) * t); };
-  const auto line = [&](size_t at) {
-    return mix(value(at + x.first), value(at + x.second), x.share);
+  const auto line = [&](const float* p) { return mix(read(p), read(p + channels), share.x()); };
+  const auto plane = [&](const float* p) {
+    return mix(line(p), line(p + channels * VoxelBricks::kRow), share.y());
   };
-  const auto plane = [&](size_t at) {
-    return mix(line(at + y.first), line(at + y.second), y.share);
-  };
-  return mix(plane(z.first), plane(z.second), z.share);
+  const float* first = voxels.at(low.cast<int>());
+  return mix(plane(first), plane(first + channels * VoxelBricks::kSlice), share.z());
 }
 
 }  // namespace
 
 float GridLookup::at(const Vec3& world) const {
   const Vec3 voxel = to_voxels_.point(world);
-  if (!inside(voxel, grid_->size)) return 0;
-  const float* values = grid_->values.data();
-  if (grid_->nearest) return values[nearest(*grid_, voxel)];
-  return interpolate<float>(*grid_, voxel, [&](size_t i) { return values[i]; });
+  const VoxelBricks& voxels = grid_->voxels;
+  if (!inside(voxel, voxels.size())) return 0;
+  if (grid_->nearest) return *nearest(voxels, voxel);
+  return interpolate<1, float>(voxels, voxel, [](const float* p) { return *p; });
 }
 
 Color GridLookup::color_at(const Vec3& world) const {
   if (scalar()) return Color::Constant(at(world));
   const Vec3 voxel = to_voxels_.point(world);
-  if (!inside(voxel, grid_->size)) return Color::Zero();
-  const float* values = grid_->values.data();
-  const auto read = [&](size_t i) { return Color(Eigen::Map<const Color>(values + i)); };
-  if (grid_->nearest) return read(3 * nearest(*grid_, voxel));
-  return interpolate<Color>(*grid_, voxel, read);
+  const VoxelBricks& voxels = grid_->voxels;
+  if (!inside(voxel, voxels.size())) return Color::Zero();
+  const auto read = [](const float* p) { return Color(Eigen::Map<const Color>(p)); };
+  if (grid_->nearest) return read(nearest(voxels, voxel));
+  return interpolate<3, Color>(voxels, voxel, read);
 }
 
 }  // namespace waylight

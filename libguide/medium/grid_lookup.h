@@ -14,8 +14,9 @@ class WorldToVoxels {
   WorldToVoxels() = default;
   explicit WorldToVoxels(const VolumeGrid& grid) {
     const Mat4 inverse = grid.grid_to_world.cast<double>().inverse().cast<float>();
-    linear_ = grid.size.cast<float>().asDiagonal() * inverse.topLeftCorner<3, 3>();
-    offset_ = grid.size.cast<float>().cwiseProduct(inverse.topRightCorner<3, 1>());
+    const Vec3 size = grid.size().cast<float>();
+    linear_ = size.asDiagonal() * inverse.topLeftCorner<3, 3>();
+    offset_ = size.cwiseProduct(inverse.topRightCorner<3, 1>());
   }
   Vec3 point(const Vec3& p) const { return linear_ * p + offset_; }
   Vec3 direction(const Vec3& d) const { return linear_ * d; }
@@ -33,7 +34,7 @@ class GridLookup {
       : grid_(std::move(grid)), to_voxels_(*grid_) {}
 
   const VolumeGrid& grid() const { return *grid_; }
-  bool scalar() const { return grid_->channels == 1; }
+  bool scalar() const { return grid_->voxels.channels() == 1; }
   float at(const Vec3& world) const;        // of a grid of one channel
   Color color_at(const Vec3& world) const;  // grey of one channel
 

@@ -4,9 +4,8 @@
 #include <memory>
 #include <string>
 #include <variant>
-#include <vector>
 
-#include "libguide/math/types.h"
+#include "libguide/medium/voxel_bricks.h"
 
 namespace waylight {
 
@@ -16,13 +15,12 @@ struct HenyeyGreenstein {
 };
 using PhaseFunction = std::variant<IsotropicPhase, HenyeyGreenstein>;
 
-// A dense grid of 1 or 3 channels; voxel (x, y, z) at (z * size.y + y) * size.x + x.
 struct VolumeGrid {
-  Eigen::Vector3i size = Eigen::Vector3i::Zero();
-  int channels = 1;
-  bool nearest = false;  // the voxel's value, instead of trilinear interpolation
-  std::vector<float> values;
+  VoxelBricks voxels;                     // of 1 or 3 channels
+  bool nearest = false;                   // the voxel's value, instead of trilinear interpolation
   Mat4 grid_to_world = Mat4::Identity();  // [0,1]^3 of the grid to the world
+
+  const Eigen::Vector3i& size() const { return voxels.size(); }
 };
 using VolumeTexture = std::variant<Color, std::shared_ptr<const VolumeGrid>>;
 

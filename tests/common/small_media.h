@@ -14,18 +14,29 @@ inline Medium homogeneous(const Color& sigma_t, const Color& albedo, float g = 0
 
 // A density over [0, 1]^3: a bright core in thin haze, with an empty half.
 inline std::shared_ptr<const VolumeGrid> lumpy_grid(int channels = 1, int side = 20) {
-  auto grid = std::make_shared<VolumeGrid>();
-  grid->size = Eigen::Vector3i::Constant(side);
-  grid->channels = channels;
+  std::vector<float> values;
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x)
         for (int c = 0; c < channels; ++c) {
           const Vec3 p = (Vec3(x, y, z).array() + 0.5f).matrix() / side;
           const float core = std::exp(-20 * (p - Vec3(0.3f, 0.5f, 0.5f)).squaredNorm());
-          grid->values.push_back(p.x() > 0.7f ? 0 : 0.1f + core * (1 + 0.3f * c));
+          values.push_back(p.x() > 0.7f ? 0 : 0.1f + core * (1 + 0.3f * c));
         }
+  auto grid = std::make_shared<VolumeGrid>();
+  grid->voxels = VoxelBricks(Eigen::Vector3i::Constant(side), channels, values);
   return grid;
+}
+
+// All values of a grid, x fastest.
+inline std::vector<float> dense_values(const VoxelBricks& voxels) {
+  std::vector<float> values;
+  for_each_voxel({Eigen::Vector3i::Zero(), (voxels.size().array() - 1).matrix()},
+                 [&](const Eigen::Vector3i& i) {
+                   const float* value = voxels.at(i);
+                   values.insert(values.end(), value, value + voxels.channels());
+                 });
+  return values;
 }
 
 inline Medium cloud(std::shared_ptr<const VolumeGrid> density, float scale, float albedo = 0.9f) {

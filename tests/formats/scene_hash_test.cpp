@@ -18,8 +18,7 @@ std::shared_ptr<Bitmap> checkers() {
 
 Medium smoke() {
   auto grid = std::make_shared<VolumeGrid>();
-  grid->size = {1, 1, 2};
-  grid->values = {1, 2};
+  grid->voxels = VoxelBricks({1, 1, 2}, 1, std::vector<float>{1, 2});
   HeterogeneousMedium medium{std::shared_ptr<const VolumeGrid>(grid), Color(0.5f, 0.5f, 0.5f)};
   return {"smoke", medium, HenyeyGreenstein{0.3f}};
 }

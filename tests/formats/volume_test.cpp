@@ -2,6 +2,7 @@
 
 #include <thread>
 
+#include "common/small_media.h"
 #include "formats/temporary_files.h"
 #include "formats/volume_io.h"
 
@@ -15,10 +16,10 @@ using Volumes = TemporaryFiles;
 // Two voxels of value in a box of nothing, in a world where the axes differ in length and turn.
 VolumeGrid two_voxels() {
   VolumeGrid grid;
-  grid.size = {7, 5, 9};
-  grid.values.assign(size_t{7} * 5 * 9, 0.0f);
-  grid.values[(4 * 5 + 2) * 7 + 3] = 0.25f;
-  grid.values[(5 * 5 + 2) * 7 + 3] = 1;
+  std::vector<float> values(size_t{7} * 5 * 9);
+  values[(4 * 5 + 2) * 7 + 3] = 0.25f;
+  values[(5 * 5 + 2) * 7 + 3] = 1;
+  grid.voxels = VoxelBricks({7, 5, 9}, 1, values);
   const Eigen::AngleAxisf turn(0.4f, Vec3(1, 2, 3).normalized());
   grid.grid_to_world.topLeftCorner<3, 3>() = turn.matrix() * Vec3(2, 3, 4).asDiagonal();
   grid.grid_to_world.topRightCorner<3, 1>() = Vec3(-1, 5, 0.5f);
@@ -27,7 +28,7 @@ VolumeGrid two_voxels() {
 
 Vec3 center_of(const VolumeGrid& grid, const Eigen::Vector3i& voxel) {
   const Vec3 p =
-      (voxel.cast<float>() + Vec3::Constant(0.5f)).cwiseQuotient(grid.size.cast<float>());
+      (voxel.cast<float>() + Vec3::Constant(0.5f)).cwiseQuotient(grid.size().cast<float>());
   return (grid.grid_to_world * p.homogeneous()).head<3>();
 }
 
@@ -35,17 +36,17 @@ TEST_F(Volumes, AVdbGridComesBackCroppedToWhatItHolds) {
   const VolumeGrid grid = two_voxels();
   write_vdb(path("two.vdb"), grid, "density");
   const VolumeGrid read = read_vdb(path("two.vdb"), "density");
-  EXPECT_EQ(read.size, Eigen::Vector3i(1, 1, 2));
-  EXPECT_EQ(read.values, (std::vector<float>{0.25f, 1}));
+  EXPECT_EQ(read.size(), Eigen::Vector3i(1, 1, 2));
+  EXPECT_EQ(dense_values(read.voxels), (std::vector<float>{0.25f, 1}));
   EXPECT_TRUE(center_of(read, {0, 0, 0}).isApprox(center_of(grid, {3, 2, 4}), 1e-5f));
   EXPECT_TRUE(center_of(read, {0, 0, 1}).isApprox(center_of(grid, {3, 2, 5}), 1e-5f));
 }
 
 TEST_F(Volumes, AnEmptyVdbGridComesBackAsOneVoxelOfNothing) {
   VolumeGrid grid = two_voxels();
-  grid.values.assign(grid.values.size(), 0.0f);
+  grid.voxels.scale(0);
   write_vdb(path("empty.vdb"), grid, "density");
-  EXPECT_EQ(read_vdb(path("empty.vdb"), "").values, std::vector<float>{0});
+  EXPECT_EQ(dense_values(read_vdb(path("empty.vdb"), "").voxels), std::vector<float>{0});
 }
 
 // OpenVDB names every file by the clock, which counts seconds.
@@ -63,9 +64,49 @@ TEST_F(Volumes, EqualVdbGridsAreEqualBytes) {
 
 TEST_F(Volumes, OnlyGridsOfOneChannelAreWritten) {
   VolumeGrid grid = two_voxels();
-  grid.channels = 3;
+  grid.voxels = VoxelBricks({1, 1, 1}, 3, std::vector<float>{1, 2, 3});
   EXPECT_TRUE(mentions(error_of([&] { write_vdb(path("a.vdb"), grid, "density"); }), "3 channels"));
   EXPECT_EQ(file_count(), 0u);
+}
+
+// A .vol file of version 3, of `count` values in one row.
+std::string vol_bytes(int type, int channels, const std::vector<float>& values, int count) {
+  std::string bytes = "VOL\3";
+  const auto put = [&](const auto& v) {
+    bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
+  };
+  for (const int32_t v : {type, count / channels, 1, 1, channels}) put(v);
+  for (const float v : {0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 1.0f}) put(v);
+  for (const float v : values)
+    if (type == 1)
+      put(v);
+    else
+      put(static_cast<uint8_t>(static_cast<int>(v)));
+  return bytes;
+}
+
+TEST_F(Volumes, AVolFileHoldsFloatsOrBytesInOneOrThreeChannels) {
+  const auto read = [&](int type, int channels) {
+    const std::string file = put("a.vol", vol_bytes(type, channels, {0, 51, 255, -3, 5, 6}, 6));
+    return dense_values(read_vol(file).voxels);
+  };
+  for (const int channels : {1, 3}) {
+    EXPECT_EQ(read(1, channels), (std::vector<float>{0, 51, 255, 0, 5, 6}));
+    EXPECT_EQ(read(3, channels)[1], 0.2f);
+    EXPECT_EQ(read(3, channels)[2], 1);
+  }
+}
+
+TEST_F(Volumes, AVolFileThatIsShortOrNotFiniteOrTooLargeIsRefused) {
+  const auto refusal = [&](const std::vector<float>& values, int count) {
+    const std::string file = put("bad.vol", vol_bytes(1, 1, values, count));
+    return error_of([&] { read_vol(file); });
+  };
+  EXPECT_TRUE(mentions(refusal({1, 2, 3}, 4), "truncated"));
+  EXPECT_TRUE(mentions(refusal({1, NAN, 3}, 3), "voxel 1, 0, 0 is not finite"));
+  EXPECT_TRUE(mentions(refusal({1, 2, INFINITY}, 3), "voxel 2, 0, 0 is not finite"));
+  EXPECT_TRUE(mentions(refusal({1}, 1 << 23), "2^22 along an axis"));
+  EXPECT_TRUE(mentions(refusal({1}, 0), "empty"));
 }
 
 TEST_F(Volumes, AFolderThatIsMissingIsNamed) {

@@ -17,12 +17,13 @@ struct CloudSummary {
 };
 
 CloudSummary summarise(const VolumeGrid& grid) {
+  const VoxelBox all{Eigen::Vector3i::Zero(), grid.size() - Eigen::Vector3i::Ones()};
   double sum = 0, filled = 0;
-  for (const float value : grid.values) {
-    sum += value;
-    filled += value > 0;
-  }
-  return {filled / double(grid.values.size()), filled > 0 ? sum / filled : 0};
+  grid.voxels.visit(all, [&](const float* value, int64_t count) {
+    sum += double(count) * *value;
+    if (*value > 0) filled += double(count);
+  });
+  return {filled / double(all.count()), filled > 0 ? sum / filled : 0};
 }
 
 void report(const ToolRun& run, const Provenance& provenance, const std::string& output,
@@ -30,14 +31,14 @@ void report(const ToolRun& run, const Provenance& provenance, const std::string&
   const CloudSummary summary = summarise(grid);
   const auto bytes = std::filesystem::file_size(output);
   run.print(fmt::format("{} x {} x {} voxels, {:.1f} % filled with a mean density of {:.3f}",
-                        grid.size.x(), grid.size.y(), grid.size.z(), 100 * summary.filled,
+                        grid.size().x(), grid.size().y(), grid.size().z(), 100 * summary.filled,
                         summary.mean));
   run.print(fmt::format("{} in {:.2f} s", format_bytes(double(bytes)), seconds));
   nlohmann::ordered_json stats = stats_of(provenance);
   stats.update({{"seconds", seconds},
-                {"width", grid.size.x()},
-                {"height", grid.size.y()},
-                {"depth", grid.size.z()},
+                {"width", grid.size().x()},
+                {"height", grid.size().y()},
+                {"depth", grid.size().z()},
                 {"filled", summary.filled},
                 {"mean_density", summary.mean},
                 {"bytes", bytes}});

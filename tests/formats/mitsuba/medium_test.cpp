@@ -1,3 +1,4 @@
+#include "common/small_media.h"
 #include "formats/mitsuba/content_fixture.h"
 #include "formats/mitsuba/media.h"
 
@@ -134,7 +135,7 @@ TEST(MitsubaMedia, MaxValueSaysWhatTheLargestVoxelStandsFor) {
       medium("heterogeneous", "<volume name=\"sigma_t\" type=\"gridvolume\">" + kGrid +
                                   "<float name=\"max_value\" value=\"6\"/></volume>"));
   const auto grid = std::get<std::shared_ptr<const VolumeGrid>>(m.density);
-  EXPECT_EQ(grid->values, (std::vector<float>{2, 6}));
+  EXPECT_EQ(waylight::testing::dense_values(grid->voxels), (std::vector<float>{2, 6}));
   expect_color(std::get<Color>(m.albedo), Color::Constant(0.75f));
 }
 
@@ -164,7 +165,7 @@ TEST(MitsubaMedia, EmissionMayBeAGridOfAHeterogeneousMedium) {
   const MediumEmission emission = emission_of(
       content, "heterogeneous", volume + "<rgb name=\"emission_scale\" value=\"1 .5 .1\"/>");
   const auto grid = std::get<std::shared_ptr<const VolumeGrid>>(emission.radiance);
-  EXPECT_EQ(grid->values, (std::vector<float>{1, 3}));
+  EXPECT_EQ(waylight::testing::dense_values(grid->voxels), (std::vector<float>{1, 3}));
   expect_color(emission.scale, {1, 0.5f, 0.1f});
   EXPECT_NE(content.error_of(medium("homogeneous", volume)).find("emission varies"),
             std::string::npos);

@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "common/small_media.h"
 #include "libguide/base/error.h"
 #include "libguide/base/parallel.h"
 #include "libguide/base/sampler.h"
@@ -66,20 +67,20 @@ CloudOptions small_cloud() {
 
 TEST(Cloud, IsWithinZeroAndOneAndPartlyEmpty) {
   const VolumeGrid grid = make_cloud(small_cloud());
-  EXPECT_EQ(grid.size, Eigen::Vector3i(40, 24, 30));
-  ASSERT_EQ(grid.values.size(), 40u * 24 * 30);
+  EXPECT_EQ(grid.size(), Eigen::Vector3i(40, 24, 30));
+  const std::vector<float> values = testing::dense_values(grid.voxels);
   int filled = 0;
-  for (const float value : grid.values) {
+  for (const float value : values) {
     ASSERT_GE(value, 0);
     ASSERT_LE(value, 1);
     filled += value > 0;
   }
-  EXPECT_GT(filled, 0.1 * double(grid.values.size()));
-  EXPECT_LT(filled, 0.7 * double(grid.values.size()));
+  EXPECT_GT(filled, 0.1 * double(values.size()));
+  EXPECT_LT(filled, 0.7 * double(values.size()));
 }
 
 bool on_border(const VolumeGrid& grid, const Eigen::Vector3i& voxel) {
-  return (voxel.array() == 0).any() || (voxel.array() == grid.size.array() - 1).any();
+  return (voxel.array() == 0).any() || (voxel.array() == grid.size().array() - 1).any();
 }
 
 TEST(Cloud, LeavesTheBorderEmptyHoweverMuchItFills) {
@@ -87,26 +88,23 @@ TEST(Cloud, LeavesTheBorderEmptyHoweverMuchItFills) {
   options.coverage = 1;
   options.puffs = 64;
   const VolumeGrid grid = make_cloud(options);
-  const float* value = grid.values.data();
-  for (int z = 0; z < grid.size.z(); ++z)
-    for (int y = 0; y < grid.size.y(); ++y)
-      for (int x = 0; x < grid.size.x(); ++x, ++value)
-        if (on_border(grid, {x, y, z})) {
-          ASSERT_EQ(*value, 0) << x << " " << y << " " << z;
-        }
+  for_each_voxel({Eigen::Vector3i::Zero(), grid.size() - Eigen::Vector3i::Ones()},
+                 [&](const Eigen::Vector3i& voxel) {
+                   if (on_border(grid, voxel)) ASSERT_EQ(*grid.voxels.at(voxel), 0) << voxel;
+                 });
 }
 
 TEST(Cloud, IsTheSameAtAnyNumberOfThreads) {
   const VolumeGrid many = make_cloud(small_cloud());
   const ThreadLimit one(1);
-  EXPECT_EQ(make_cloud(small_cloud()).values, many.values);
+  EXPECT_EQ(make_cloud(small_cloud()).voxels, many.voxels);
 }
 
 TEST(Cloud, DependsOnTheSeedAndFillsMoreWithCoverage) {
   CloudOptions options = small_cloud();
   const auto sum = [&] {
-    const VolumeGrid grid = make_cloud(options);
-    return std::accumulate(grid.values.begin(), grid.values.end(), 0.0);
+    const std::vector<float> values = testing::dense_values(make_cloud(options).voxels);
+    return std::accumulate(values.begin(), values.end(), 0.0);
   };
   const double first = sum();
   options.seed = 1;

@@ -93,8 +93,7 @@ TEST(MediumEmission, OfGridsIsUnbiased) {
 
 TEST(MediumEmission, OfAGridOfEqualVoxelsIsThatOfAHomogeneousMedium) {
   auto grid = std::make_shared<VolumeGrid>();
-  grid->size = Eigen::Vector3i::Constant(4);
-  grid->values.assign(64, 0.5f);
+  grid->voxels = VoxelBricks(Eigen::Vector3i::Constant(4), 1, std::vector<float>(64, 0.5f));
   const Ray ray{Vec3(-1, 0.3f, 0.6f), Vec3::UnitX()};
   const MediumTracker varying(glowing(cloud(grid, 4, 0.3f)));
   const MediumTracker constant(glowing(homogeneous(Color::Constant(2), Color::Constant(0.3f))));
