@@ -35,6 +35,12 @@ void check_previous(const GuideCache& cache, Quantity stream) {
     fail("the previous cache is damaged ({}): train from the photons again", fault);
 }
 
+template <typename Impl>
+Impl& running(const std::unique_ptr<Impl>& impl) {
+  require(impl != nullptr, "the cache trainer has finished: make another to go on");
+  return *impl;
+}
+
 // A stream that does not say how many are to come is taken to be like those before.
 double expected_photons(const PhotonStreamInfo& stream, const GuideCache& previous) {
   const double before = static_cast<double>(previous.photons);
@@ -85,7 +91,6 @@ struct CacheTrainer::Impl {
   MediumRules medium_rules(const CacheTrainOptions& options) const;
   void finish_surfaces();
   void finish_media();
-  void merge_alike(const TreeOptions& rules);
   void summarise(CacheTrainSummary& summary) const;
 
   GuideCache cache_;             // without its cells while they are in training
@@ -192,19 +197,13 @@ void CacheTrainer::Impl::finish_surfaces() {
   TrainingTree& tree = surfaces_.tree();
   tree.restate_exposure(clock_);
   cells_before_merging_ = tree.size();
-  if (merges_alike_) merge_alike(surfaces_.rules().tree);
+  const double per_particle = clock_.particles > 0 ? clock_.photons / clock_.particles : 0;
+  const TreeOptions& rules = surfaces_.rules().tree;
+  if (merges_alike_)
+    bytes_saved_ = tree.merge_alike({surfaces_.rules().cell.components, rules.normal_spread,
+                                     clock_.photons, sqr(rules.min_extent), per_particle});
   tree.lend_mixtures();
-  tree.store(cache_, surfaces_.rules().tree,
-             clock_.particles > 0 ? clock_.photons / clock_.particles : 0);
-}
-
-void CacheTrainer::Impl::merge_alike(const TreeOptions& rules) {
-  TrainingTree& tree = surfaces_.tree();
-  const size_t before = tree.stored_bytes();
-  tree.merge_alike({surfaces_.rules().cell.components, rules.normal_spread, clock_.photons,
-                    sqr(rules.min_extent),
-                    clock_.particles > 0 ? clock_.photons / clock_.particles : 0});
-  bytes_saved_ = before - tree.stored_bytes();
+  tree.store(cache_, rules, per_particle);
 }
 
 // A cache of a scene without media gets no cell of them.
@@ -288,25 +287,13 @@ CacheTrainer::CacheTrainer(const CacheTrainOptions& options, const PhotonStreamI
 
 CacheTrainer::~CacheTrainer() = default;
 
-void CacheTrainer::consume(std::span<const Photon> photons) {
-  require(impl_ != nullptr, "the cache trainer has finished: make another to go on");
-  impl_->consume(photons);
-}
-
-void CacheTrainer::consume(std::span<const MediumPhoton> photons) {
-  require(impl_ != nullptr, "the cache trainer has finished: make another to go on");
-  impl_->consume(photons);
-}
-
-void CacheTrainer::consume(std::span<const Escape> escapes) {
-  require(impl_ != nullptr, "the cache trainer has finished: make another to go on");
-  impl_->consume(escapes);
-}
+void CacheTrainer::consume(std::span<const Photon> batch) { running(impl_).consume(batch); }
+void CacheTrainer::consume(std::span<const MediumPhoton> batch) { running(impl_).consume(batch); }
+void CacheTrainer::consume(std::span<const Escape> batch) { running(impl_).consume(batch); }
 
 GuideCache CacheTrainer::finish(CacheTrainSummary* summary) {
-  require(impl_ != nullptr, "the cache trainer has finished: make another to go on");
   const std::unique_ptr<Impl> impl = std::move(impl_);
-  return impl->finish(summary);
+  return running(impl).finish(summary);
 }
 
 }  // namespace waylight

@@ -71,10 +71,12 @@ void TrainingTree::split_full_cells(const TreeOptions& tree, const CellTrainingO
   });
 }
 
-void TrainingTree::merge_alike(const CellMergeOptions& options) {
+size_t TrainingTree::merge_alike(const CellMergeOptions& options) {
+  const size_t before = stored_bytes();
   merge_siblings([&](const TrainingCell& lower, const TrainingCell& upper, const CellSplit& split) {
     return merge_if_alike(lower, upper, split, options);
   });
+  return before - std::min(before, stored_bytes());
 }
 
 void TrainingTree::lend_mixtures() {

@@ -28,8 +28,9 @@ class TrainingTree : public CellTree<TrainingCell> {
   // of the whole training so far.
   void split_full_cells(const TreeOptions& tree, const CellTrainingOptions& options, double now);
 
-  // Puts one cell in place of two siblings wherever they know of the same light.
-  void merge_alike(const CellMergeOptions& options);
+  // Puts one cell in place of two siblings wherever they know of the same light. Returns
+  // how many stored_bytes() that saves.
+  size_t merge_alike(const CellMergeOptions& options);
 
   // Cells without a mixture inherit that of a relative nearby whose surface faces the same way.
   void lend_mixtures();
