@@ -8,6 +8,7 @@
 #include "libguide/render_pilot.h"
 #include "libguide/render_plan.h"
 #include "libguide/scene/camera.h"
+#include "libguide/scene/sphere_view.h"
 #include "libguide/transport/choice_pilot.h"
 #include "libguide/transport/film.h"
 #include "libguide/transport/fluence_plane.h"
@@ -60,14 +61,14 @@ class Renderer {
         filter_(crop_),
         guiding_(caches.brdf, caches.guide, scene.description().materials,
                  guided_media(scene, options)),
-        camera_medium_(sensor_.medium != kNone ? sensor_.medium
-                                               : scene.medium_at(camera_.origin())),
+        camera_medium_(medium_of_view()),
         film_(crop_.crop_width, crop_.crop_height),
         tiles_x_((film_.width() + kTile - 1) / kTile),
         tiles_y_((film_.height() + kTile - 1) / kTile),
         segments_(options.segments ? size_t(tiles_x_) * tiles_y_ : 0),
         clock_(clock_of(options)) {
     if (options.fluence) plane_.emplace(scene, *options.fluence, crop_.width, crop_.height);
+    if (options.sphere) sphere_.emplace(*options.sphere, crop_.width, crop_.height);
     use(tracer_options(scene, options));
   }
 
@@ -222,8 +223,17 @@ class Renderer {
     if (segments) segments->samples += count;
   }
 
+  int medium_of_view() const {
+    if (options_.sphere) return scene_.medium_at(*options_.sphere);
+    return sensor_.medium != kNone ? sensor_.medium : scene_.medium_at(camera_.origin());
+  }
+
   PathRecord sample(const Vec2& pixel, Sampler& sampler, const PathContext& context) const {
     if (plane_) return plane_->sample(pixel, *tracer_, guiding_.guide().medium, sampler, context);
+    if (sphere_) {
+      const std::optional<Ray> ray = sphere_->ray(pixel);
+      return ray ? tracer_->trace(*ray, sampler, context) : PathRecord();
+    }
     const Ray ray = camera_.ray(pixel, sampler.next_2d());
     return tracer_->trace(ray, sampler, context);
   }
@@ -247,6 +257,7 @@ class Renderer {
   GuidingCaches guiding_;
   int camera_medium_;
   std::optional<FluencePlane> plane_;
+  std::optional<SphereView> sphere_;
   std::optional<PathTracer> tracer_;
   AutoDecision decision_;
   PixelEstimates estimates_;

@@ -79,6 +79,8 @@ struct RenderOptions {
   AovSet aovs;
   // The fluence in media over a plane, in place of what the camera sees.
   std::optional<FluenceSlice> fluence;
+  // The radiance that arrives at a point from everywhere (sphere_view.h), in place of it.
+  std::optional<Vec3> sphere;
 
   void validate() const;
 };

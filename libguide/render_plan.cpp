@@ -139,10 +139,14 @@ void RenderOptions::validate() const {
       share_rule != ShareRule::learned || mode != RenderMode::ris,
       "--bsdf-share learned is not for --mode ris, whose share is that of the candidates: give a "
       "number");
-  require(!fluence || mode != RenderMode::automatic,
-          "--mode auto compares ways to render what the camera sees, which --fluence is not");
-  require(!fluence || pixel_estimate == PixelEstimateMode::cache,
-          "--pixel-estimate preview is of what the camera sees, which --fluence is not");
+  const bool of_camera = !fluence && !sphere;
+  require(of_camera || mode != RenderMode::automatic,
+          "--mode auto compares ways to render what the camera sees, which --fluence and --sphere "
+          "are not");
+  require(of_camera || pixel_estimate == PixelEstimateMode::cache,
+          "--pixel-estimate preview is of what the camera sees, which --fluence and --sphere are "
+          "not");
+  require(!fluence || !sphere, "--fluence and --sphere are two pictures: give one of them");
   require(candidates >= 1 && candidates <= 64, "--candidates must be in [1, 64], not {}",
           candidates);
 }
@@ -177,7 +181,7 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
   result.max_split = split_of(options);
   result.max_depth = options.max_depth == -2 ? defaults.max_depth : options.max_depth;
   result.rr_depth = options.rr_depth == -1 ? defaults.rr_depth : options.rr_depth;
-  result.hide_emitters = defaults.hide_emitters && !options.fluence;
+  result.hide_emitters = defaults.hide_emitters && !options.fluence && !options.sphere;
   return result;
 }
 

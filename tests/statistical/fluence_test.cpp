@@ -57,23 +57,41 @@ TEST(Fluence, IsFourPiTimesTheRadianceInEquilibrium) {
   }
 }
 
-// A lamp of radiance L that is a far sphere of solid angle w: in thin fog the fluence is L w.
-TEST(Fluence, OfALampIsItsRadianceTimesItsSolidAngle) {
-  SceneDescription description =
-      box_of(homogeneous(Color::Constant(1e-6f), Color::Zero()), {0, 0, 0}, {1, 1, 1});
-  const int black = testing::add_material(description, "black", DiffuseMaterial{Texture(0.0f)});
-  const Vec3 middle(0.5f, 0.5f, 0.3f);
-  const uint32_t lamp =
-      testing::add_shape(description, Sphere{middle + Vec3(0, 100, 0), 10.0f}, black);
-  testing::make_light(description, lamp, kLe);
-  const double solid_angle = 2 * kPi * (1 - std::sqrt(1 - 0.01));
-  const Scene scene(description);
+// A lamp of radiance L that is a far sphere of solid angle w, in thin fog.
+class LampInThinFog : public ::testing::Test {
+ protected:
+  static SceneDescription lit() {
+    SceneDescription description =
+        box_of(homogeneous(Color::Constant(1e-6f), Color::Zero()), {0, 0, 0}, {1, 1, 1});
+    const int black = testing::add_material(description, "black", DiffuseMaterial{Texture(0.0f)});
+    const uint32_t lamp = testing::add_shape(
+        description, Sphere{Vec3(0.5f, 0.5f, 0.3f) + Vec3(0, 100, 0), 10.0f}, black);
+    testing::make_light(description, lamp, kLe);
+    return description;
+  }
+
+  const Scene scene_{lit()};
+  const double expected_ = luminance(kLe) * 2 * kPi * (1 - std::sqrt(1 - 0.01));
+};
+
+TEST_F(LampInThinFog, FluenceIsItsRadianceTimesItsSolidAngle) {
   for (const int max_depth : {1, -1}) {
     RenderOptions options = slice_of(64);
     options.max_depth = max_depth;
-    expect_mean(mean_of(render(scene, {}, options, nullptr, {})), luminance(kLe) * solid_angle,
-                "lamp");
+    expect_mean(mean_of(render(scene_, {}, options, nullptr, {})), expected_, "lamp");
   }
+}
+
+// The disk has an area of 2 pi and 4 pi sr, so the square about it 8 and 16.
+TEST_F(LampInThinFog, FluenceIsTheIntegralOfThePictureOfTheSphere) {
+  RenderOptions options = slice_of(512);
+  options.fluence.reset();
+  options.sphere = Vec3(0.5f, 0.5f, 0.3f);
+  options.width = options.height = 64;
+  const Image image = render(scene_, {}, options, nullptr, {});
+  Mean red = mean_of(image);
+  for (double* figure : {&red.value, &red.sigma}) *figure *= 16 * luminance(kLe) / kLe.x();
+  expect_mean(red, expected_, "sphere");
 }
 
 TEST(Fluence, IsTheSameInGuidedModes) {

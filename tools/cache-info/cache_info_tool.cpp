@@ -10,6 +10,7 @@
 #include "tools/cache-info/describe.h"
 #include "tools/cache-info/medium_plot.h"
 #include "tools/cache-info/text_report.h"
+#include "tools/common/position.h"
 #include "tools/common/provenance_of.h"
 
 namespace waylight {
@@ -21,6 +22,8 @@ void validate(const CacheInfoArguments& arguments, FileKind kind) {
           "--plot CELL|X,Y,Z|MATERIAL and -o PICTURE belong together");
   require(plot.samples.empty() || kind == FileKind::cache,
           "--samples belongs to the --plot of an illumination cache");
+  require(plot.truth.empty() || parse_position(plot.target),
+          "--truth belongs to the --plot of a place in a medium, X,Y,Z");
   require(plot.scene.path.empty() || kind == FileKind::brdf,
           "--scene belongs to the --plot of a BRDF cache");
   require(plot.target.empty() || kind == FileKind::cache || kind == FileKind::brdf,

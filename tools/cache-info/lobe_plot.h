@@ -11,6 +11,7 @@ struct LobePlotArguments {
   std::string target;    // index of a cell, or name or index of a material
   std::string output;    // picture to write
   std::string samples;   // photon file, or empty
+  std::string truth;     // picture of `render --sphere`, or empty
   SceneArguments scene;  // path empty: no BSDF beside the fit
   float elevation = 45;  // of wo, in degrees from the normal
   int size = 256;        // pixels along the side of one disk

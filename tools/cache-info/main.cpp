@@ -18,7 +18,8 @@ known by its content, not by its name.
 illumination cache, given by its number, the mixture and with --samples the photons it saw beside it;
 of a material, given by its name or number, the fit and with --scene the true BSDF beside it. Of the
 cell of a medium at X,Y,Z it draws the sphere about +z, indirect light on the left and direct light
-on the right, each relative to its largest density. Colours are logarithmic, from a ten thousandth of
+on the right, each relative to its largest density, and with --truth what arrives there beside both
+kinds together. Colours are logarithmic, from a ten thousandth of
 the largest value up.
 
 Examples:
@@ -26,6 +27,8 @@ Examples:
   cache-info room.photons --check
   cache-info room.cache --plot 17 --samples room.photons -o lobe.png
   cache-info fog.cache --plot 0.5,1,2 --samples fog.photons -o lobe.png
+  render fog.xml --sphere 0.5,1,2 --size 256x256 --spp 256 -o sphere.exr
+  cache-info fog.cache --plot 0.5,1,2 --truth sphere.exr -o lobe.png
   cache-info room.brdf --plot floor --elevation 60 --scene room.xml -o lobe.png)"};
 
 void declare(CLI::App& app, CacheInfoArguments& arguments) {
@@ -38,6 +41,8 @@ void declare(CLI::App& app, CacheInfoArguments& arguments) {
             {".png"});
   as_input(app.add_option("--samples", arguments.plot.samples,
                           "Photon file whose photons are drawn beside the cell's mixture"));
+  as_input(app.add_option("--truth", arguments.plot.truth,
+                          "Picture of render --sphere=X,Y,Z that is drawn beside all light there"));
   app.add_option("--elevation", arguments.plot.elevation,
                  "Angle of wo from the normal of a material, in degrees")
       ->check(CLI::Range(0.0, 90.0));

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "formats/cache_file.h"
+#include "formats/image_io.h"
 #include "formats/photon_file.h"
 #include "libguide/base/error.h"
 #include "libguide/directional/vmf_mixture.h"
+#include "libguide/image/picture.h"
+#include "libguide/scene/sphere_view.h"
 #include "tools/cache-info/disk_picture.h"
 #include "tools/common/provenance_of.h"
 
@@ -55,24 +56,41 @@ void append(LightPictures& light, bool with_photons, std::vector<DiskPicture>& p
   pictures.push_back(light.photons);
 }
 
+double radiance(const MediumLight& light, std::span<const VmfComponent> lobes, const Vec3& w) {
+  return lobes.empty() ? 0.0 : light.fluence * VmfMixture(lobes).pdf(w);
+}
+
+// All light of the cell, and a picture of `render --sphere` on the same scale.
+void append_truth(const std::string& path, const MediumCacheView& view, const MediumCell& cell,
+                  std::vector<DiskPicture>& pictures) {
+  const Bitmap image = color_of(read_image(path));
+  require(image.width == image.height, "--truth \"{}\": has {} x {} pixels and should be a square",
+          path, image.width, image.height);
+  const SphereView sphere(Vec3::Zero(), image.width, image.height);
+  DiskPicture light(pictures[0].size()), truth = light;
+  light.fill([&](const Vec2& y) {
+    const Vec3 w = disk_to_direction(y);
+    return radiance(cell.direct, view.lobes(cell.direct), w) +
+           radiance(cell.indirect, view.lobes(cell.indirect), w);
+  });
+  truth.fill([&](const Vec2& y) {
+    const Eigen::Vector2i pixel = sphere.pixel(y).cast<int>();
+    return luminance(image.at(std::clamp(pixel.x(), 0, image.width - 1),
+                              std::clamp(pixel.y(), 0, image.height - 1)));
+  });
+  const double largest = light.largest();
+  for (DiskPicture* picture : {&light, &truth}) {
+    picture->divide(largest);
+    pictures.push_back(*picture);
+  }
+}
+
 std::string describe(const MediumLight& light) {
   return fmt::format("{} lobes, fluence {:.4g}, {:.0f} effective samples", light.component_count,
                      light.fluence, light.effective_samples);
 }
 
 }  // namespace
-
-std::optional<Vec3> parse_position(const std::string& text) {
-  Vec3 position;
-  const char *at = text.data(), *end = at + text.size();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (axis > 0 && (at == end || *at++ != ',')) return std::nullopt;
-    const auto [rest, error] = std::from_chars(at, end, position[axis]);
-    if (error != std::errc() || !std::isfinite(position[axis])) return std::nullopt;
-    at = rest;
-  }
-  return at == end ? std::optional(position) : std::nullopt;
-}
 
 void plot_medium(const ToolRun& run, const std::string& path, const Vec3& position,
                  const LobePlotArguments& arguments) {
@@ -87,11 +105,14 @@ void plot_medium(const ToolRun& run, const std::string& path, const Vec3& positi
   std::vector<DiskPicture> pictures;
   append(indirect, with_photons, pictures);
   append(direct, with_photons, pictures);
+  if (!arguments.truth.empty()) append_truth(arguments.truth, view, *cell, pictures);
   write_disks(arguments.output, pictures);
   run.print(fmt::format("{}: cell {}{}", file_name(arguments.output), cell - view.cells.data(),
                         with_photons ? ", photons on the right of each" : ""));
   run.print(fmt::format("indirect light on the left: {}", describe(cell->indirect)));
-  run.print(fmt::format("direct light on the right: {}", describe(cell->direct)));
+  run.print(fmt::format("direct light on the right{}: {}",
+                        arguments.truth.empty() ? "" : " of it, then all light and the truth",
+                        describe(cell->direct)));
 }
 
 }  // namespace waylight

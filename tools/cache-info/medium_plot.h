@@ -1,7 +1,6 @@
 #pragma once
 // Lobes of a cell of a medium as pictures of the whole sphere, on the equal-area disk about +z.
 
-#include <optional>
 #include <string>
 
 #include "libguide/math/types.h"
@@ -9,10 +8,8 @@
 
 namespace waylight {
 
-// "x,y,z", or nothing.
-std::optional<Vec3> parse_position(const std::string& text);
-
-// The indirect and the direct light of the cell at a position, and the photons of each beside it.
+// The indirect and the direct light of the cell at a position, the photons of each beside it, and
+// both together beside the truth.
 void plot_medium(const ToolRun& run, const std::string& cache, const Vec3& position,
                  const LobePlotArguments& arguments);
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "libguide/base/error.h"
+#include "tools/common/position.h"
 
 namespace waylight {
 namespace {
@@ -87,6 +88,12 @@ void read_fluence(const RenderArguments& arguments, RenderOptions& options) {
   options.fluence = slice;
 }
 
+void read_sphere(const std::string& text, RenderOptions& options) {
+  if (text.empty()) return;
+  options.sphere = parse_position(text);
+  require(options.sphere.has_value(), "--sphere {}: write the point as X,Y,Z", text);
+}
+
 void add_mode(CLI::App& app, RenderMode& mode) {
   add_choice(
       app, "--mode", kModes, [&mode](size_t i) { mode = static_cast<RenderMode>(i); },
@@ -161,7 +168,7 @@ void add_frame(CLI::App& app, RenderArguments& frame) {
       ->allow_extra_args(false);
 }
 
-void add_fluence(CLI::App& app, RenderArguments& arguments) {
+void add_views(CLI::App& app, RenderArguments& arguments) {
   app.add_option("--fluence", arguments.fluence,
                  "In place of the camera's view, the fluence in media over a plane, such as y=0.5")
       ->type_name("AXIS=POSITION");
@@ -169,6 +176,10 @@ void add_fluence(CLI::App& app, RenderArguments& arguments) {
       app, "--fluence-of", {"paths", "cache"},
       [&arguments](size_t i) { arguments.fluence_of_cache = i == 1; },
       "Where it comes from: path tracing, or the cells of --cache");
+  app.add_option("--sphere", arguments.sphere,
+                 "In place of the camera's view, the radiance that arrives at a point, as "
+                 "cache-info --plot draws the sphere; --sphere=X,Y,Z where X is negative")
+      ->type_name("X,Y,Z");
 }
 
 void add_sharing(CLI::App& app, RenderArguments& arguments) {
@@ -199,7 +210,7 @@ void declare(CLI::App& app, RenderArguments& arguments) {
             {".csv"});
   add_stopping(app, options);
   add_frame(app, arguments);
-  add_fluence(app, arguments);
+  add_views(app, arguments);
   app.add_option("--seed", options.seed, "Seed of the random numbers");
   add_sharing(app, arguments);
 }
@@ -210,6 +221,7 @@ RenderOptions complete_options(const RenderArguments& arguments) {
   read_crop(arguments.crop, options);
   read_share(arguments.bsdf_share, options);
   read_fluence(arguments, options);
+  read_sphere(arguments.sphere, options);
   for (const std::string& name : arguments.aovs) add_aov(name, options.aovs);
   const bool endless = options.spp == 0 && options.time == 0 && options.error == 0;
   if (endless && !options.checkpoints.empty()) options.time = options.checkpoints.back();
@@ -232,6 +244,7 @@ std::string method_name(const RenderOptions& options) {
   if (options.roulette != RouletteMode::automatic)
     name += ", roulette " + kRoulettes[static_cast<size_t>(options.roulette)];
   if (options.fluence) name += options.fluence->of_cache ? ", fluence of cells" : ", fluence";
+  if (options.sphere) name += ", sphere";
   return options.split > 1 ? name + ", split" : name;
 }
 

@@ -12,6 +12,7 @@ struct RenderArguments {
   std::string bsdf_share = "auto";
   std::string fluence;  // AXIS=POSITION; empty: the camera's view
   bool fluence_of_cache = false;
+  std::string sphere;  // X,Y,Z; empty: the camera's view
   std::vector<std::string> aovs;  // names
   RenderOptions options;
 };
