@@ -28,7 +28,7 @@ std::string reference_warning(const SceneRuns& scene, const Pictures& pictures) 
   if (share < kNoticeable) return {};
   return fmt::format(
       "<p class=warning>The reference's own relMSE is {:.0f} % of the least in this table: the "
-      "smallest errors are overestimated.</p>\n",
+      "smallest errors are overestimated, unless its noise was taken out of them.</p>\n",
       100 * share);
 }
 
