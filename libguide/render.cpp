@@ -61,7 +61,7 @@ class Renderer {
         filter_(crop_),
         guiding_(caches.brdf, caches.guide, scene.description().materials,
                  guided_media(scene, options)),
-        camera_medium_(medium_of_view()),
+        start_medium_(options.sphere ? scene.medium_at(*options.sphere) : medium_of_camera()),
         film_(crop_.crop_width, crop_.crop_height),
         tiles_x_((film_.width() + kTile - 1) / kTile),
         tiles_y_((film_.height() + kTile - 1) / kTile),
@@ -124,7 +124,7 @@ class Renderer {
   static constexpr int kPathsOfPilot = 16;
 
   void use(const PathTracerOptions& options) {
-    tracer_.emplace(scene_, guiding_, options, camera_medium_);
+    tracer_.emplace(scene_, guiding_, options, start_medium_);
   }
 
   // At most a twentieth of the time goes into the pilot, or a sixteenth of the paths.
@@ -139,11 +139,11 @@ class Renderer {
                           ? uint64_t(options_.spp) * crop_.width * crop_.height / kPathsOfPilot
                           : std::numeric_limits<uint64_t>::max();
     const PilotFrame frame(sensor_, options_.seed);
-    guiding_.learned(
-        learn_choices(tracer_->with(options), frame, guiding_.guide().cells.size(), pilot, [&] {
-          return control_.stopped() ||
-                 (options_.time > 0 && clock_.seconds() > options_.time / kTimeOfPilot);
-        }));
+    const PathTracer tracer(scene_, guiding_, options, medium_of_camera());
+    guiding_.learned(learn_choices(tracer, frame, guiding_.guide().cells.size(), pilot, [&] {
+      return control_.stopped() ||
+             (options_.time > 0 && clock_.seconds() > options_.time / kTimeOfPilot);
+    }));
   }
 
   // Samples per pixel of the next pass; 0 when the render is done.
@@ -223,8 +223,7 @@ class Renderer {
     if (segments) segments->samples += count;
   }
 
-  int medium_of_view() const {
-    if (options_.sphere) return scene_.medium_at(*options_.sphere);
+  int medium_of_camera() const {
     return sensor_.medium != kNone ? sensor_.medium : scene_.medium_at(camera_.origin());
   }
 
@@ -255,7 +254,7 @@ class Renderer {
   Camera camera_;
   FilterSampler filter_;
   GuidingCaches guiding_;
-  int camera_medium_;
+  int start_medium_;  // of the paths
   std::optional<FluencePlane> plane_;
   std::optional<SphereView> sphere_;
   std::optional<PathTracer> tracer_;

@@ -49,10 +49,7 @@ constexpr Alternative kGrids = {"guided distances in grids", Decision::distances
                                 [](PathTracerOptions& o) { o.flights.guides_grids = true; }};
 
 constexpr Alternative kRoulette = {"roulette by throughput", Decision::roulette,
-                                   [](PathTracerOptions& o) {
-                                     o.roulette = Roulette::throughput;
-                                     o.max_split = 1;
-                                   }};
+                                   [](PathTracerOptions& o) { o.roulette = Roulette::throughput; }};
 
 constexpr Alternative kGuidedRoulette = {
     "guided roulette", Decision::roulette,

@@ -78,8 +78,8 @@ std::optional<Vec3> common_normal(const TrainingCell& a, const TrainingCell& b,
   return normal;
 }
 
-// What both reach, and on either side of the split what the one there does; nothing where that would
-// pass by what one of them knows, or through a gap between them.
+// What both reach, and on either side of the split what the one there does; nothing where that
+// would pass by what one of them knows, or through a gap between them.
 std::optional<CellReach> common_reach(const TrainingCell& lower, const TrainingCell& upper,
                                       const CellSplit& split) {
   const CellReach low = lower.reach(), high = upper.reach();

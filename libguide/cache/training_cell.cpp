@@ -26,8 +26,8 @@ constexpr float kOwnAreaPhotons = 32;
 // Photons that tell on which side of a surface a new cell lies.
 constexpr float kOwnSidePhotons = 8;
 
-// Photons that tell how far a cell reaches: no further than their box and a share of its radius, and
-// than so many standard deviations from their mean and a little, since surfaces are flat.
+// Photons that tell how far a cell reaches: no further than their box and a share of its radius,
+// and than so many standard deviations from their mean and a little, since surfaces are flat.
 constexpr uint32_t kOwnExtentPhotons = 64;
 constexpr float kRoom = 0.25f, kDeviations = 3, kThickness = 0.01f;
 
@@ -199,8 +199,8 @@ Bounds TrainingCell::extent() const {
   return inherited_;
 }
 
-// Where most photons of a cell lie in front of a wall and a few stray ones behind it, their box goes
-// through the wall, but their standard deviations hardly do.
+// Where most photons of a cell lie in front of a wall and a few stray ones behind it, their box
+// goes through the wall, but their standard deviations hardly do.
 CellReach TrainingCell::reach() const {
   if (united_) return *united_;
   const Bounds box = extent();

@@ -107,9 +107,10 @@ void add_roulette(CLI::App& app, RenderOptions& options) {
       "Russian roulette; auto: guided where there is a cache");
   app.add_option("--weight-window", options.weight_window,
                  "Of guided roulette: how many times its upper end is its lower, 1 to 1000");
-  app.add_option("--split", options.split,
-                 "Copies that guided roulette may make of a path at a vertex, 1 to 20; 1: none; 0: 2 in "
-                 "mode auto, else none");
+  app.add_option(
+      "--split", options.split,
+      "Copies that guided roulette may make of a path at a vertex, 1 to 20; 1: none; 0: 2 in "
+      "mode auto, else none");
   // In the order of PixelEstimateMode.
   add_choice(
       app, "--pixel-estimate", {"cache", "preview"},
