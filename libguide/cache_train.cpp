@@ -102,6 +102,7 @@ struct CacheTrainer::Impl {
   EscapeHistogram escapes_;
   BlockTally escape_tally_;
   size_t cells_before_, cells_before_merging_ = 0, bytes_saved_ = 0;
+  size_t medium_cells_before_merging_ = 0;
   bool merges_alike_;
   TrainingClock clock_, medium_clock_;
   bool has_media_;
@@ -217,6 +218,8 @@ void CacheTrainer::Impl::finish_media() {
   medium_clock_.particles = static_cast<double>(medium.emitted);
   MediumTree& tree = media_.tree();
   tree.restate_exposure(medium_clock_);
+  medium_cells_before_merging_ = tree.size();
+  if (merges_alike_) tree.merge_alike(media_.rules().cell, medium_clock_.photons);
   tree.lend_mixtures();
   tree.store(medium, media_.rules().cell, medium_clock_.photons / medium_clock_.particles);
 }
@@ -274,6 +277,7 @@ void CacheTrainer::Impl::summarise(CacheTrainSummary& summary) const {
   count_cells(cache_, summary);
   if (!cache_.medium.cells.empty()) summary.media = summary_of(cache_.medium, media_.tally());
   summary.bytes = surfaces_.tree().bytes();
+  summary.media.cells_before_merging = medium_cells_before_merging_;
   if (!cache_.medium.cells.empty()) summary.media.bytes = media_.tree().bytes();
   summary.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();

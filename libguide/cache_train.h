@@ -25,7 +25,7 @@ struct CacheTrainOptions {
   int max_cells = 200'000;             // 1..10^7, of surfaces and of media each
   float normal_spread = 0.9f;  // cells whose mean normal is shorter are split by orientation
   DirectLight direct = DirectLight::drop;
-  // At the end, cells of surfaces become one where their photons cannot tell their light apart.
+  // At the end, cells become one where their photons cannot tell their light apart.
   bool merge_alike = false;
   MixturePrior prior;
   VmfPrior medium_prior;
@@ -42,7 +42,7 @@ struct MediumLightSummary {
 
 struct MediumTrainSummary {
   uint64_t photons = 0, rejected = 0, weights_capped = 0;
-  size_t cells = 0;
+  size_t cells = 0, cells_before_merging = 0;  // equal where none were to be merged
   MediumLightSummary indirect, direct;
   size_t bytes = 0;
 };

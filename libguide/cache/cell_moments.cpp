@@ -28,18 +28,12 @@ void MomentBatch::merge_into(CellTraining& cell) const {
   if (cell.count > kMaxMomentCount) forget_half(cell);
 }
 
-// As PositionSums::merge_into, of sums about the means of both.
 void add_moments(CellTraining& cell, const CellTraining& other) {
   if (other.count == 0) return;
   const float n = cell.count + other.count, share = other.count / n;
-  const float between = cell.count * share;
-  const Vec3 d = other.position_mean - cell.position_mean;
   const Vec3 dn = other.normal_mean - cell.normal_mean;
-  cell.position_m2 += other.position_m2 + between * d.cwiseProduct(d);
-  cell.position_cross +=
-      other.position_cross + between * Vec3(d.x() * d.y(), d.x() * d.z(), d.y() * d.z());
-  cell.normal_m2 += other.normal_m2 + between * dn.cwiseProduct(dn);
-  cell.position_mean += share * d;
+  add_position_moments(cell, other);
+  cell.normal_m2 += other.normal_m2 + cell.count * share * dn.cwiseProduct(dn);
   cell.normal_mean += share * dn;
   cell.count = n;
   if (cell.count > kMaxMomentCount) forget_half(cell);

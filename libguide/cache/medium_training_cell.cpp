@@ -87,12 +87,47 @@ void MediumTrainingCell::inherit_fluence(MediumTrainingCell& child, double now,
   child.direct_.begin_with_flux(fluence(direct_, now, min_extent) * volume * exposure);
 }
 
-float MediumTrainingCell::fluence(const TrainingLight& light, double now, float min_extent) const {
+// Fluences become those of both weighed by exposure, also where the volume of the whole is not the
+// sum of the two.
+void MediumTrainingCell::unite(const MediumTrainingCell& sibling,
+                               std::span<const VmfComponent> indirect,
+                               std::span<const VmfComponent> direct, double now,
+                               float min_extent) {
+  const double exposures = exposure(now, min_extent) + sibling.exposure(now, min_extent);
+  const double volumes = volume(min_extent) + sibling.volume(min_extent);
+  const MediumTraining& other = sibling.training_;
+  training_.occupied = parts_of_both(box_, training_.occupied, sibling.box_, other.occupied);
+  if (other.count > 0) add_position_moments(training_, other);
+  training_.count += other.count;
+  if (training_.count > kMaxMomentCount) forget_half(training_);
+  box_.extend(sibling.box_);
+  training_.inherited_volume = static_cast<float>(volumes);
+  training_.born = std::clamp(now - exposures / volumes, 0.0, now);
+  const double scale = volume(min_extent) / volumes;
+  const auto flux = [&](const TrainingLight& a, const TrainingLight& b) {
+    return scale * (a.training().flux + b.training().flux);
+  };
+  indirect_.unite(sibling.indirect_, flux(indirect_, sibling.indirect_), indirect);
+  direct_.unite(sibling.direct_, flux(direct_, sibling.direct_), direct);
+}
+
+double MediumTrainingCell::volume(float min_extent) const {
   const double least = double{min_extent} * min_extent * min_extent;
-  const double volume = std::max(medium_volume(training_, box_), least);
-  const double spread = volume * (now - training_.born);
+  return std::max(medium_volume(training_, box_), least);
+}
+
+float MediumTrainingCell::fluence(const TrainingLight& light, double now, float min_extent) const {
+  const double spread = exposure(now, min_extent);
   const double limit = std::numeric_limits<float>::max();
   return spread > 0 ? static_cast<float>(std::min(light.training().flux / spread, limit)) : 0.0f;
+}
+
+// Of the cell's own photons, shared out as those that the mixtures saw, their parent's among them.
+double MediumTrainingCell::fluence_samples(const TrainingLight& light) const {
+  const double both = indirect_.record().photon_count + direct_.record().photon_count;
+  if (!(both > 0)) return kInheritedPhotons;
+  const double effective = std::min(light.record().effective_samples / both, 1.0);
+  return training_.count * effective + kInheritedPhotons;
 }
 
 MediumTraining MediumTrainingCell::training() const {

@@ -49,6 +49,16 @@ class MediumTrainingCell {
   TrainingLight& direct() { return direct_; }
   const TrainingLight& direct() const { return direct_; }
 
+  // Becomes one cell with its sibling, the upper one of the two, and takes the mixtures of both.
+  void unite(const MediumTrainingCell& sibling, std::span<const VmfComponent> indirect,
+             std::span<const VmfComponent> direct, double now, float min_extent);
+
+  // Volume times photons of the training while the cell was there.
+  double exposure(double now, float min_extent) const {
+    return volume(min_extent) * (now - training_.born);
+  }
+  // Effective photons behind the fluence of one kind of light, what was inherited included.
+  double fluence_samples(const TrainingLight& light) const;
   // Weight per volume and photon of the stream, with a few photons' worth of what its parent knew.
   float fluence(const TrainingLight& light, double now, float min_extent) const;
 
@@ -60,6 +70,7 @@ class MediumTrainingCell {
 
  private:
   void add_positions(std::span<const MediumPhoton> block, std::span<const uint32_t> indices);
+  double volume(float min_extent) const;
   void inherit_fluence(MediumTrainingCell& child, double now, float min_extent) const;
 
   Bounds box_;               // its part of the tree, within the scene

@@ -1,5 +1,7 @@
 #include "libguide/cache/medium_tree.h"
 
+#include "libguide/cache/medium_cell_merge.h"
+
 namespace waylight {
 namespace {
 
@@ -70,6 +72,11 @@ void MediumTree::split_full_cells(const MediumTreeOptions& tree, const MediumCel
       [&](const MediumTrainingCell& cell, const CellSplit& split, bool upper) {
         return cell.child(split, upper, now, options);
       });
+}
+
+void MediumTree::merge_alike(const MediumCellOptions& options, double now) {
+  merge_siblings([&](const MediumTrainingCell& lower, const MediumTrainingCell& upper,
+                     const CellSplit&) { return merge_if_alike(lower, upper, options, now); });
 }
 
 void MediumTree::lend_mixtures() {

@@ -10,6 +10,11 @@ namespace waylight {
 // The bit of the part of a box, one of 4 x 4 x 4, that a position is in, or is nearest to.
 uint64_t part_of_box(const Bounds& box, const Vec3& position);
 
+// The parts of the box of both halves that lie, with their centre, in parts of theirs that saw a
+// photon.
+uint64_t parts_of_both(const Bounds& lower, uint64_t lower_parts, const Bounds& upper,
+                       uint64_t upper_parts);
+
 double box_volume(const Bounds& box);
 
 // Volume of the box whose uniform density has the covariance C of the photons, sqrt(12^3 det C).

@@ -34,6 +34,17 @@ class PositionSums {
   Vec3 shift_, sum_ = Vec3::Zero(), square_ = Vec3::Zero(), cross_ = Vec3::Zero();
 };
 
+// Adds those of the positions of another cell, whose count is not 0; leaves t.count as it is.
+template <typename Training>
+void add_position_moments(Training& t, const Training& other) {
+  const float share = other.count / (t.count + other.count), between = t.count * share;
+  const Vec3 d = other.position_mean - t.position_mean;
+  t.position_m2 += other.position_m2 + between * d.cwiseProduct(d);
+  t.position_cross +=
+      other.position_cross + between * Vec3(d.x() * d.y(), d.x() * d.z(), d.y() * d.z());
+  t.position_mean += share * d;
+}
+
 // Integers up to it are exact in float; beyond, the moments become a window over the last photons.
 inline constexpr float kMaxMomentCount = 0x1p24f;
 

@@ -42,6 +42,13 @@ class TrainingLight : public OnlineMixture<VmfLobes> {
 
   void begin_with_flux(double flux) { training_.flux = flux; }
 
+  // Becomes one with that of a sibling, whose evidence adds up; flux: of both.
+  void unite(const TrainingLight& sibling, double flux, std::span<const VmfComponent> mixture) {
+    training_.flux = flux;
+    add_evidence(sibling);
+    replace_mixture(mixture);
+  }
+
   using OnlineMixture::inherit;
   using OnlineMixture::inherit_as_child;
 

@@ -1,7 +1,8 @@
 #pragma once
-// How far one Gaussian mixture is from another.
+// How far one mixture is from another.
 
 #include "libguide/directional/gaussian_mixture.h"
+#include "libguide/directional/vmf_mixture.h"
 
 namespace waylight {
 
@@ -10,5 +11,6 @@ namespace waylight {
 // outside the domain are left out. q is taken to be no less than 1e-20 of p; never negative, and 0
 // where either is empty.
 double divergence(const GaussianMixture& p, const GaussianMixture& q);
+double divergence(const VmfMixture& p, const VmfMixture& q);
 
 }  // namespace waylight

@@ -37,7 +37,7 @@ void consume_all(PhotonReader& reader, CacheTrainer& trainer, const ToolRun& run
     trainer.consume(escapes);
     trainer.consume(in_media);
     done += static_cast<double>(photons.size() + in_media.size());
-    run.control.progress(done, 0, "photons");
+    run.control.progress(done, reader.share() > 0 ? done / reader.share() : 0, "photons");
   }
 }
 
@@ -64,6 +64,7 @@ nlohmann::ordered_json stats_of(const MediumTrainSummary& s) {
           {"rejected", s.rejected},
           {"weights_capped", s.weights_capped},
           {"cells", s.cells},
+          {"cells_before_merging", s.cells_before_merging},
           {"indirect", stats_of(s.indirect)},
           {"direct", stats_of(s.direct)},
           {"training_bytes", s.bytes}};
@@ -93,11 +94,14 @@ nlohmann::ordered_json stats_of(const Provenance& provenance, Quantity quantity,
   return stats;
 }
 
-void report_media(const ToolRun& run, const MediumTrainSummary& s) {
+void report_media(const ToolRun& run, const MediumTrainSummary& s, bool merges) {
   run.print(
       fmt::format("media: {} photons, {} cells, lobes of indirect light {:.1f}, of direct {:.1f}",
                   format_count(double(s.photons)), s.cells, s.indirect.mean_components,
                   s.direct.mean_components));
+  if (merges)
+    run.print(fmt::format("media: {} cells became {} where their light is the same",
+                          s.cells_before_merging, s.cells));
   run.print(fmt::format("media: {:.0f} effective samples of indirect light, {:.0f} of direct; {}",
                         s.indirect.mean_effective_samples, s.direct.mean_effective_samples,
                         format_bytes(double(s.bytes))));
@@ -121,7 +125,7 @@ void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrain
   run.print(fmt::format(
       "{:.2f} % of the mixtures' mass lies outside the sphere; {} in training, peak {}",
       100 * s.lost_mass, format_bytes(double(s.bytes)), format_bytes(double(peak_memory_bytes()))));
-  if (s.media.cells > 0) report_media(run, s.media);
+  if (s.media.cells > 0) report_media(run, s.media, merges);
   const uint64_t rejected = s.rejected + s.media.rejected;
   if (rejected > 0)
     run.control.warn(fmt::format("{} photons made no sense and were left out", rejected));

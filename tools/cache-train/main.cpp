@@ -46,7 +46,7 @@ void declare(CLI::App& app, CacheTrainArguments& arguments) {
       ->check(CLI::Range(0.0, 1.0));
   app.add_flag(
       "--auto", options.merge_alike,
-      "As many cells of surfaces as the light needs: siblings become one where their photons "
+      "As many cells as the light needs: siblings become one where their photons "
       "cannot tell their light apart");
   add_choice(
       app, "--direct", {"drop", "keep"},

@@ -25,6 +25,18 @@ TEST(MixtureDivergence, IsThatOfTwoGaussians) {
   EXPECT_NEAR(divergence(p, q), exact, 0.1 * exact);
 }
 
+// KL = ln(c(k_p) / c(k_q)) + A(k_p) (k_p - k_q cos) with the densities c(k) e^(k cos - k), whose
+// exponents differ by k_p - k_q.
+TEST(MixtureDivergence, IsThatOfTwoLobesOnTheSphere) {
+  const VmfComponent a = {1, Vec3::UnitZ(), 20};
+  const VmfComponent b = {1, Vec3(0.6f, 0, 0.8f), 5};
+  const double exact = std::log(vmf_norm(20) / vmf_norm(5)) - (20 - 5) +
+                       mean_cosine(20.0) * (20 - 5 * 0.8);
+  EXPECT_NEAR(divergence(VmfMixture(std::span(&a, 1)), VmfMixture(std::span(&b, 1))), exact,
+              0.05 * exact);
+  EXPECT_EQ(divergence(VmfMixture(std::span(&a, 1)), VmfMixture(std::span(&a, 1))), 0);
+}
+
 TEST(MixtureDivergence, IsFiniteWhereTheOtherHasNothing) {
   const GaussianMixture p = mixture({{1, -0.9f, 0, 1e-6f, 0, 1e-6f}});
   const GaussianMixture q = mixture({{1, 0.9f, 0, 1e-6f, 0, 1e-6f}});
