@@ -23,10 +23,11 @@ void ValueHash::add(const std::shared_ptr<const Bitmap>& bitmap) {
 
 void ValueHash::add(const std::shared_ptr<const VolumeGrid>& grid) {
   add_shared(grid, [](ValueHash& hash, const VolumeGrid& g) {
-    const auto& [voxels, nearest, grid_to_world] = g;
+    const auto& [voxels, nearest, grid_to_world, values_on_sides] = g;
     std::apply([&](const auto&... parts) { hash.add_all(parts...); }, voxels.parts());
     hash.add_all(grid_to_world);
     if (nearest) hash.add_all(nearest);
+    if (values_on_sides) hash.add_all(values_on_sides);
   });
 }
 

@@ -67,6 +67,9 @@ VolumeTexture import_grid(ImportContext& context, Properties& properties) {
   grid->grid_to_world = properties.transform("to_world") * box;
   if (!(std::abs(grid->grid_to_world.determinant()) > 0))
     fail_at(properties.element(), "its to_world has no inverse");
+  // As the renderers of the old dialect have it; those of the new one, and OpenVDB, have the values
+  // at the centres of voxels.
+  grid->values_on_sides = context.document.old_dialect && !is_vdb(path);
   rescale(properties, *grid);
   read_lookup(properties, *grid);
   return grid;

@@ -3,10 +3,6 @@
 namespace waylight {
 namespace {
 
-bool inside(const Vec3& x, const Eigen::Vector3i& size) {
-  return (x.array() >= 0).all() && (x.array() <= size.cast<float>().array()).all();
-}
-
 const float* nearest(const VoxelBricks& voxels, const Vec3& x) {
   return voxels.at(x.cast<int>().cwiseMin((voxels.size().array() - 1).matrix()));
 }
@@ -29,7 +25,7 @@ Value interpolate(const VoxelBricks& voxels, const Vec3& x, const Read& read) {
 float GridLookup::at(const Vec3& world) const {
   const Vec3 voxel = to_voxels_.point(world);
   const VoxelBricks& voxels = grid_->voxels;
-  if (!inside(voxel, voxels.size())) return 0;
+  if (!holds(voxel)) return 0;
   if (grid_->nearest) return *nearest(voxels, voxel);
   return interpolate<1, float>(voxels, voxel, [](const float* p) { return *p; });
 }
@@ -38,7 +34,7 @@ Color GridLookup::color_at(const Vec3& world) const {
   if (scalar()) return Color::Constant(at(world));
   const Vec3 voxel = to_voxels_.point(world);
   const VoxelBricks& voxels = grid_->voxels;
-  if (!inside(voxel, voxels.size())) return Color::Zero();
+  if (!holds(voxel)) return Color::Zero();
   const auto read = [](const float* p) { return Color(Eigen::Map<const Color>(p)); };
   if (grid_->nearest) return read(nearest(voxels, voxel));
   return interpolate<3, Color>(voxels, voxel, read);

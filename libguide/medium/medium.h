@@ -19,8 +19,15 @@ struct VolumeGrid {
   VoxelBricks voxels;                     // of 1 or 3 channels
   bool nearest = false;                   // the voxel's value, instead of trilinear interpolation
   Mat4 grid_to_world = Mat4::Identity();  // [0,1]^3 of the grid to the world
+  // The outermost values stand on the sides of the grid, instead of half a voxel within.
+  bool values_on_sides = false;
 
   const Eigen::Vector3i& size() const { return voxels.size(); }
+  // What of the outer voxels lies beyond the sides, in voxels; nothing along an axis with one value.
+  Vec3 margin() const {
+    if (!values_on_sides) return Vec3::Zero();
+    return (size().array() > 1).select(Vec3::Constant(0.5f), Vec3::Zero());
+  }
 };
 using VolumeTexture = std::variant<Color, std::shared_ptr<const VolumeGrid>>;
 

@@ -113,6 +113,20 @@ TEST(MitsubaMedia, MinAndMaxOfTheOldDialectReplaceTheBoxOfTheFile) {
   EXPECT_EQ(upper_corner(m.density), Vec3(5, 6, 7));
 }
 
+TEST(MitsubaMedia, ValuesOfVolFilesStandOnTheSidesOfTheBoxInTheOldDialectOnly) {
+  const auto on_sides = [](Dialect dialect, const std::string& name) {
+    Content content(dialect);
+    write_grid(content.file("a.vol"));
+    const auto m = content.medium<HeterogeneousMedium>(
+        medium("heterogeneous",
+               fmt::format("<volume name=\"{}\" type=\"gridvolume\">", name) + kGrid +
+                   "</volume>" + kAlbedo));
+    return std::get<std::shared_ptr<const VolumeGrid>>(m.density)->values_on_sides;
+  };
+  EXPECT_TRUE(on_sides(Dialect::old, "density"));
+  EXPECT_FALSE(on_sides(Dialect::current, "sigma_t"));
+}
+
 TEST(MitsubaMedia, TheNewDialectTakesTheBoxOfTheFileOnRequestOnly) {
   const auto corner = [](const std::string& body) {
     Content content(Dialect::current);
