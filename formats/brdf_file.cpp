@@ -76,8 +76,8 @@ void write_brdf(const std::string& path, const BrdfFile& file) {
   const auto provenance = add_provenance(builder, file.provenance);
   fbs::FinishBrdfCacheBuffer(
       builder, fbs::CreateBrdfCache(builder, version_needed(file.cache), provenance, materials,
-                                    entries, components));
-  write_whole_file(path, bytes_of(builder));
+                                    entries, components, true));
+  write_sealed(path, builder);
 }
 
 BrdfFile read_brdf(const std::string& path) {

@@ -101,8 +101,9 @@ void ByteSink::commit() {
 ByteSource::ByteSource(const std::string& path)
     : name_(path == "-" ? "standard input" : path), descriptor_(open_input(path)) {
   struct stat status = {};
-  if (::fstat(descriptor_.value(), &status) == 0 && S_ISDIR(status.st_mode))
-    fail("\"{}\": is a folder, not a file", name_);
+  const bool known = ::fstat(descriptor_.value(), &status) == 0;
+  if (known && S_ISDIR(status.st_mode)) fail("\"{}\": is a folder, not a file", name_);
+  if (known && S_ISREG(status.st_mode)) size_ = static_cast<uint64_t>(status.st_size);
   enlarge_pipe(descriptor_.value());
 }
 
@@ -117,6 +118,7 @@ size_t ByteSource::read(std::span<char> buffer) {
     done += static_cast<size_t>(count);
   }
   hash_.add(buffer.data(), done);
+  read_ += done;
   return done;
 }
 

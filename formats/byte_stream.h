@@ -48,12 +48,15 @@ class ByteSource {
   // Fills the buffer unless the stream ends before; returns how many bytes there were.
   size_t read(std::span<char> buffer);
   const std::string& name() const { return name_; }  // for messages
+  // Of all bytes those read so far; 0 where it is not known how many there are.
+  double share() const { return size_ > 0 ? double(read_) / double(size_) : 0; }
   uint64_t content_hash() const { return hash_.value(); }
 
  private:
   std::string name_;
   Descriptor descriptor_;
   ContentHash hash_;
+  uint64_t read_ = 0, size_ = 0;
 };
 
 }  // namespace waylight

@@ -94,7 +94,7 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
           builder, version_of(c), provenance, &bounds, c.emitted, c.passes, c.photons, nodes, cells,
           components, statistics, training, waylight::to_flat(c.quantity), escape_bins,
           escape_weights, c.medium.emitted, c.medium.photons, medium.nodes, medium.cells,
-          medium.components, medium.statistics, medium.training, c.paths, sources, reaches));
+          medium.components, medium.statistics, medium.training, c.paths, sources, reaches, true));
 }
 
 const fbs::GuideCache& root_of(const FileMap& map) {
@@ -155,7 +155,7 @@ void write_cache(const std::string& path, const CacheFile& file) {
   check_flat_size(path, bytes_needed(file), "train fewer --max-cells, or reduce the cache");
   flatbuffers::FlatBufferBuilder builder(bytes_needed(file) + 4096);
   add_cache(builder, file);
-  write_whole_file(path, bytes_of(builder));
+  write_sealed(path, builder);
 }
 
 CacheFile read_cache(const std::string& path) {

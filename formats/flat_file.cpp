@@ -1,5 +1,7 @@
 #include "formats/flat_file.h"
 
+#include "formats/byte_stream.h"
+
 namespace waylight {
 namespace {
 
@@ -27,6 +29,31 @@ void check_format_version(const std::string& path, uint32_t version, uint32_t ne
     fail("\"{}\": has format version {}, and this release reads up to {}: use a newer release",
          path, version, newest);
   if (version == 0) fail_damaged(path, "no format version");
+}
+
+std::string seal_of(std::string_view buffer) {
+  ContentHash hash;
+  hash.add(buffer);
+  const uint64_t value = hash.value();
+  std::string seal(kSealMark);
+  seal.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  return seal;
+}
+
+void check_seal(const std::string& path, std::string_view bytes, bool sealed) {
+  constexpr size_t kSealBytes = kSealMark.size() + sizeof(uint64_t);
+  const size_t buffer = bytes.size() - std::min(bytes.size(), kSealBytes);
+  const std::string_view seal = bytes.substr(buffer);
+  if (!sealed && !seal.starts_with(kSealMark)) return;
+  if (seal != seal_of(bytes.substr(0, buffer)))
+    fail_damaged(path, "its checksum is not that of its bytes");
+}
+
+void write_sealed(const std::string& path, const flatbuffers::FlatBufferBuilder& builder) {
+  ByteSink sink(path);
+  sink.write(bytes_of(builder));
+  sink.write(seal_of(bytes_of(builder)));
+  sink.commit();
 }
 
 void fail_damaged(const std::string& path, std::string_view what) {

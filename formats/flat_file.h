@@ -25,7 +25,16 @@ void check_format_version(const std::string& path, uint32_t version, uint32_t ne
 
 [[noreturn]] void fail_damaged(const std::string& path, std::string_view what);
 
-// The root of a buffer, after the structure of all of it was verified.
+// After the buffer, 16 bytes: a mark, and the XXH3 of the buffer. Whatever happens to a file, a
+// changed byte, one too few or one too many shows; files of before have none.
+inline constexpr std::string_view kSealMark = "WAYLSEAL";
+std::string seal_of(std::string_view buffer);
+void check_seal(const std::string& path, std::string_view bytes, bool sealed);
+
+// Writes a finished buffer whose root says that it is sealed.
+void write_sealed(const std::string& path, const flatbuffers::FlatBufferBuilder& builder);
+
+// The root of a buffer, after all of it was verified.
 template <typename Root>
 const Root& verified_root(std::string_view bytes, const std::string& path, FileKind kind,
                           const char* identifier, uint32_t newest_version) {
@@ -36,6 +45,7 @@ const Root& verified_root(std::string_view bytes, const std::string& path, FileK
     fail_damaged(path, "truncated, or bytes were changed");
   const Root& root = *flatbuffers::GetRoot<Root>(data);
   check_format_version(path, root.format_version(), newest_version);
+  check_seal(path, bytes, root.sealed());
   return root;
 }
 

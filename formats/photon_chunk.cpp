@@ -136,11 +136,11 @@ void build_sample_block(flatbuffers::FlatBufferBuilder& builder,
   finish(builder, fbs::ChunkContent::SampleBlock, fbs::CreateSampleBlock(builder, vector).Union());
 }
 
-void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& c) {
+void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& c, uint64_t hash) {
   builder.Clear();
   const auto end =
       fbs::CreatePhotonEnd(builder, c.emitted, c.stored, c.left_scene, c.absorbed, c.too_deep,
-                           c.invalid, c.escapes, c.in_media, c.paths, c.samples);
+                           c.invalid, c.escapes, c.in_media, c.paths, c.samples, hash);
   finish(builder, fbs::ChunkContent::PhotonEnd, end.Union());
 }
 

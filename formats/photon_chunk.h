@@ -32,7 +32,8 @@ void build_block(flatbuffers::FlatBufferBuilder& builder,
                  std::span<const fbs::MediumPhoton> photons);
 void build_sample_block(flatbuffers::FlatBufferBuilder& builder,
                         std::span<const fbs::Photon> samples);
-void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& counts);
+// hash: of all bytes before.
+void build_end(flatbuffers::FlatBufferBuilder& builder, const PhotonCounts& counts, uint64_t hash);
 
 // A chunk with its size prefix, verified.
 const fbs::PhotonChunk& verified_chunk(std::string_view bytes, const std::string& path);

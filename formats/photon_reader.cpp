@@ -20,6 +20,7 @@ struct PhotonReader::Impl {
 
   // The next chunk of the stream, which stays valid until the next call; nullptr at its end.
   const fbs::PhotonChunk* next_chunk() {
+    hash_before = source.content_hash();
     const size_t prefix = source.read(std::span(buffer).first(kPrefixBytes));
     if (prefix == 0) return nullptr;
     if (prefix < kPrefixBytes) fail_truncated();
@@ -77,6 +78,8 @@ struct PhotonReader::Impl {
     check_count("samples of camera paths", samples_read, counts.samples);
     check_count("escapes", escapes_read, counts.escapes);
     check_count("photons in media", in_media_read, counts.in_media);
+    if (flat.hash() != 0 && flat.hash() != hash_before)
+      fail_damaged(source.name(), "its checksum is not that of its bytes");
     char extra;
     if (source.read({&extra, 1}) != 0) fail_damaged(source.name(), "data after its end");
     ended = true;
@@ -106,6 +109,7 @@ struct PhotonReader::Impl {
   uint64_t photons_read = 0, samples_read = 0, escapes_read = 0, in_media_read = 0;
   std::vector<Escape> unwanted_escapes;
   std::vector<MediumPhoton> unwanted_in_media;
+  uint64_t hash_before = 0;  // of the bytes before the chunk read last
   bool ended = false;
 };
 
@@ -134,6 +138,8 @@ bool PhotonReader::read(std::vector<Photon>* photons, std::vector<Escape>* escap
   impl_->read_block(*chunk, *photons, *escapes, *in_media);
   return true;
 }
+
+double PhotonReader::share() const { return impl_->source.share(); }
 
 const PhotonCounts& PhotonReader::counts() const { return impl_->counts; }
 

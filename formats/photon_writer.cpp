@@ -98,7 +98,7 @@ void PhotonWriter::Impl::finish(const PhotonCounts& counts) {
   check_count("samples of camera paths", samples.written, counts.samples);
   check_count("escapes", escapes.written, counts.escapes);
   check_count("photons in media", in_media.written, counts.in_media);
-  build_end(builder, counts);
+  build_end(builder, counts, sink.content_hash());
   write_chunk();
   sink.commit();
 }
