@@ -1,6 +1,7 @@
 // Pictures by stb_image, and PNG writing.
 
 #include <array>
+#include <cstring>
 
 #include "formats/atomic_file.h"
 #include "formats/file_bytes.h"
@@ -33,19 +34,75 @@ struct Source {
   int width = 0, height = 0, channels = 0;
 
   int wanted() const { return channels == 2 || channels == 4 ? 4 : 3; }
+  size_t values() const { return static_cast<size_t>(width) * height * wanted(); }
+  // PNG and JPEG say where they end.
+  bool has_end() const { return size > 1 && (data[0] == 0x89 || (data[0] == 0xff && data[1] == 0xd8)); }
 };
+
+// The bytes of a picture and after them a value again and again, as much as any picture of its size
+// may take: at the end of its bytes stb_image would read zeros, in a run-length code for ever.
+class PaddedBytes {
+ public:
+  PaddedBytes(const Source& source, stbi_uc pad)
+      : source_(source), pad_(pad), end_(source.size + 4 * source.values() + kMaxHeader) {}
+
+  static const stbi_io_callbacks* callbacks() {
+    static constexpr stbi_io_callbacks kCallbacks = {
+        [](void* self, char* data, int size) { return of(self).read(data, size); },
+        [](void* self, int n) { of(self).position_ += n; },
+        [](void* self) { return int{of(self).position_ >= of(self).end_}; }};
+    return &kCallbacks;
+  }
+
+ private:
+  static constexpr size_t kMaxHeader = 1 << 16;
+
+  static PaddedBytes& of(void* self) { return *static_cast<PaddedBytes*>(self); }
+  int read(char* data, int size) {
+    const size_t known = source_.size, left = end_ - std::min(position_, end_);
+    const size_t count = std::min<size_t>(size, left);
+    for (size_t i = 0; i < count; ++i, ++position_)
+      data[i] = static_cast<char>(position_ < known ? source_.data[position_] : pad_);
+    return static_cast<int>(count);
+  }
+
+  const Source& source_;
+  stbi_uc pad_;
+  size_t position_ = 0, end_;
+};
+
+template <typename T>
+using Loader = T* (*)(const stbi_io_callbacks*, void*, int*, int*, int*, int);
+
+template <typename T>
+Pixels<T> load_pixels(const Source& source, Loader<T> load, stbi_uc pad) {
+  int width = 0, height = 0, channels = 0;
+  PaddedBytes bytes(source, pad);
+  Pixels<T> pixels(
+      load(PaddedBytes::callbacks(), &bytes, &width, &height, &channels, source.wanted()),
+      stbi_image_free);
+  if (!pixels) fail("\"{}\": cannot be decoded: {}", source.path, stbi_failure_reason());
+  return pixels;
+}
+
+// A picture that depends on what comes after its bytes is cut short.
+template <typename T>
+Pixels<T> load_whole(const Source& source, Loader<T> load) {
+  Pixels<T> pixels = load_pixels(source, load, 1);
+  if (source.has_end()) return pixels;
+  const Pixels<T> again = load_pixels(source, load, 2);
+  if (std::memcmp(pixels.get(), again.get(), source.values() * sizeof(T)) != 0)
+    fail("\"{}\": is truncated", source.path);
+  return pixels;
+}
 
 // Interleaved numbers of the picture with `wanted` channels, decoded by `colour` and `alpha`.
 template <typename T, typename ColourDecoder>
-Image decode(const Source& source, T* (*load)(const stbi_uc*, int, int*, int*, int*, int),
-             const ColourDecoder& colour, float alpha_scale) {
-  int width = 0, height = 0, channels = 0;
+Image decode(const Source& source, Loader<T> load, const ColourDecoder& colour, float alpha_scale) {
   const int wanted = source.wanted();
-  const Pixels<T> pixels(load(source.data, source.size, &width, &height, &channels, wanted),
-                         stbi_image_free);
-  if (!pixels) fail("\"{}\": cannot be decoded: {}", source.path, stbi_failure_reason());
-  Image image(width, height, {"R", "G", "B"});
-  if (wanted == 4) image = Image(width, height, {"R", "G", "B", "A"});
+  const Pixels<T> pixels = load_whole(source, load);
+  Image image(source.width, source.height, {"R", "G", "B"});
+  if (wanted == 4) image = Image(source.width, source.height, {"R", "G", "B", "A"});
   for (size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i] = i % wanted == 3 ? static_cast<float>(pixels.get()[i]) * alpha_scale
                                       : colour(pixels.get()[i]);
@@ -64,8 +121,7 @@ std::vector<float> decoding_table(bool srgb) {
 }
 
 template <typename T>
-Image decode_integers(const Source& source, T* (*load)(const stbi_uc*, int, int*, int*, int*, int),
-                      bool srgb) {
+Image decode_integers(const Source& source, Loader<T> load, bool srgb) {
   const std::vector<float> table = decoding_table<T>(srgb);
   return decode<T>(
       source, load, [&](T v) { return table[v]; }, 1.0f / std::numeric_limits<T>::max());
@@ -108,11 +164,11 @@ Image read_picture(const std::string& path, ColorSpace space) {
   const bool integers_srgb = space != ColorSpace::linear;
   if (stbi_is_hdr_from_memory(source.data, source.size))
     return decode<float>(
-        source, stbi_loadf_from_memory,
+        source, stbi_loadf_from_callbacks,
         [&](float v) { return space == ColorSpace::srgb ? srgb_to_linear(v) : v; }, 1);
   if (stbi_is_16_bit_from_memory(source.data, source.size))
-    return decode_integers<stbi_us>(source, stbi_load_16_from_memory, integers_srgb);
-  return decode_integers<stbi_uc>(source, stbi_load_from_memory, integers_srgb);
+    return decode_integers<stbi_us>(source, stbi_load_16_from_callbacks, integers_srgb);
+  return decode_integers<stbi_uc>(source, stbi_load_from_callbacks, integers_srgb);
 }
 
 std::string png_bytes(const Bitmap& picture, float exposure) {

@@ -1,5 +1,7 @@
 #include <tiny_obj_loader.h>
 
+#include <charconv>
+#include <cmath>
 #include <sstream>
 
 #include "formats/file_bytes.h"
@@ -87,12 +89,47 @@ class ObjBuilder {
   bool has_normals_ = false, has_uvs_ = false;
 };
 
+// The next word of a line, which is taken off it; empty at its end and from a comment on.
+std::string_view next_word(std::string_view& line) {
+  constexpr std::string_view kBlank = " \t\r";
+  line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
+  const std::string_view word = line.substr(0, line.find_first_of(kBlank));
+  line.remove_prefix(word.size());
+  return word.starts_with('#') ? std::string_view() : word;
+}
+
+bool is_finite_number(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+}
+
+// The numbers that tinyobjloader reads of a line; it takes what is none for 0.
+int numbers_of(std::string_view statement) {
+  if (statement == "v" || statement == "vn") return 3;
+  return statement == "vt" ? 1 : 0;
+}
+
+void check_numbers(const std::string& path, std::string_view text) {
+  for (size_t number = 1; !text.empty(); ++number) {
+    std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    const std::string_view statement = next_word(line);
+    for (int i = numbers_of(statement); i > 0; --i)
+      if (const std::string_view word = next_word(line); !is_finite_number(word))
+        fail("\"{}\":{}: {} has \"{}\" where a finite number is needed", path, number, statement,
+             word);
+  }
+}
+
 ObjBuilder& builder(void* user_data) { return *static_cast<ObjBuilder*>(user_data); }
 
 }  // namespace
 
 TriangleMesh read_obj(const std::string& path, MeshRepairs* repairs) {
   std::istringstream text(read_whole_file(path));
+  check_numbers(path, text.view());
   tinyobj::callback_t callbacks;
   callbacks.vertex_cb = [](void* data, float x, float y, float z, float) {
     builder(data).add_position({x, y, z});

@@ -15,6 +15,7 @@ struct ImportOptions {
   bool lenient = false;  // unknown materials become grey diffuse, unknown shapes nothing
   bool two_sided = false;  // opaque materials of one side that shapes use get two
   std::function<void(const std::string&)> on_warning;
+  std::function<void(const std::string&)> on_file;  // of each file that the scene refers to
 };
 
 // Throws Error naming file, line and element. Relative paths are looked for beside the file that

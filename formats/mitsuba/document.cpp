@@ -63,6 +63,7 @@ class DocumentParser {
   DocumentParser(const std::string& path, const ImportOptions& options)
       : options_(options), parameters_(options.defines) {
     document_.path = path;
+    document_.on_file = options.on_file;
   }
 
   Document parse() {

@@ -54,7 +54,11 @@ std::string Document::find_file(const Element& by, const std::string& relative) 
   std::vector<fs::path> folders = {fs::path(by.file).parent_path(), fs::path(path).parent_path()};
   folders.insert(folders.end(), search_folders.begin(), search_folders.end());
   for (const fs::path& folder : folders)  // folder / absolute is absolute
-    if (is_file(folder / wanted)) return (folder / wanted).string();
+    if (is_file(folder / wanted)) {
+      const std::string found = (folder / wanted).string();
+      if (on_file) on_file(found);
+      return found;
+    }
   fail_at(by, "there is no file \"{}\" beside it, beside \"{}\" or in a <path> folder", relative,
           path);
 }

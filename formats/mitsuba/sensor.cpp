@@ -8,17 +8,6 @@ constexpr double kDegree = std::numbers::pi / 180;
 // Diagonal of 35 mm film in mm, to which focal lengths refer.
 const double kFilmDiagonal = std::hypot(36.0, 24.0);
 
-// From half an angle of view across `axis` to that across the width.
-double half_fov_x(const Element& sensor, const std::string& axis, double half, double aspect) {
-  const double t = std::tan(half);
-  if (axis == "x" || (axis == "smaller" && aspect <= 1) || (axis == "larger" && aspect > 1))
-    return half;
-  if (axis == "y" || axis == "smaller" || axis == "larger") return std::atan(t * aspect);
-  if (axis == "diagonal") return std::atan(t / std::sqrt(1 + 1 / (aspect * aspect)));
-  fail_at(sensor, "unknown fov_axis \"{}\"{}", axis,
-          did_you_mean(axis, {"x", "y", "diagonal", "smaller", "larger"}));
-}
-
 // "50mm", or a number of mm.
 double focal_length(const Element& sensor, Properties& properties) {
   double length = 50;
@@ -33,17 +22,33 @@ double focal_length(const Element& sensor, Properties& properties) {
   return length;
 }
 
-float import_fov(const Element& sensor, Properties& properties, double aspect) {
+FovAxis import_axis(const Element& sensor, Properties& properties) {
+  static const std::map<std::string, FovAxis> kAxes = {{"x", FovAxis::x},
+                                                       {"y", FovAxis::y},
+                                                       {"diagonal", FovAxis::diagonal},
+                                                       {"smaller", FovAxis::smaller},
+                                                       {"larger", FovAxis::larger}};
   const std::string axis = properties.text("fov_axis", "x");
+  const auto known = kAxes.find(axis);
+  if (known == kAxes.end())
+    fail_at(sensor, "unknown fov_axis \"{}\"{}", axis,
+            did_you_mean(axis, {"x", "y", "diagonal", "smaller", "larger"}));
+  return known->second;
+}
+
+void import_fov(const Element& sensor, Properties& properties, SensorDescription& result) {
+  result.fov_axis = import_axis(sensor, properties);
   if (properties.has("fov") && properties.has("focal_length"))
     fail_at(sensor, "has both fov and focal_length");
   if (!properties.has("fov")) {
     const double half = std::atan(kFilmDiagonal / (2 * focal_length(sensor, properties)));
-    return static_cast<float>(2 * half_fov_x(sensor, "diagonal", half, aspect));
+    result.fov = static_cast<float>(2 * half);
+    result.fov_axis = FovAxis::diagonal;
+    return;
   }
   const double degrees = properties.number("fov", 0);
   if (!(degrees > 0 && degrees < 180)) fail_at(sensor, "its fov must lie between 0 and 180");
-  return static_cast<float>(2 * half_fov_x(sensor, axis, 0.5 * degrees * kDegree, aspect));
+  result.fov = static_cast<float>(degrees * kDegree);
 }
 
 // Mitsuba refuses a scale. For directions a uniform one is without effect, so it is taken out.
@@ -87,7 +92,7 @@ void import_sensor(ImportContext& context, const Element& sensor) {
   Properties properties(context.document, sensor);
   SensorDescription& result = context.scene.sensor;
   for (const Element* film : properties.objects("film")) result.film = import_film(context, *film);
-  result.fov_x = import_fov(sensor, properties, double(result.film.width) / result.film.height);
+  import_fov(sensor, properties, result);
   result.to_world = without_scale(context, sensor, properties.transform("to_world"));
   import_lens(sensor, properties, result);
   import_principal_point(properties, result);

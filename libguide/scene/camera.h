@@ -7,6 +7,9 @@
 
 namespace waylight {
 
+// The tangent of half the angle that the width of the film spans.
+float tan_half_fov_x(const SensorDescription& sensor);
+
 // Perspective or thin-lens camera over the full film of `width` x `height` pixels; a crop window is
 // a choice of pixels, made by who renders. Throws Error for a description that makes no camera.
 class Camera {

@@ -101,10 +101,15 @@ struct FilmDescription {
   float filter_b = 1.0f / 3, filter_c = 1.0f / 3;  // mitchell
 };
 
+// What a field of view spans of the film: its width, its height, its diagonal, or the smaller or
+// the larger side.
+enum class FovAxis { x, y, diagonal, smaller, larger };
+
 // Perspective camera looking along +z of its own space with y up and x to the LEFT (Mitsuba).
 struct SensorDescription {
   Mat4 to_world = Mat4::Identity();  // no scale
-  float fov_x = 0.785398f;           // radians, of the full film width
+  float fov = 0.785398f;             // radians, of the full film, whatever its size
+  FovAxis fov_axis = FovAxis::x;
   float aperture_radius = 0;         // thin lens; 0: pinhole
   float focus_distance = 1;
   float principal_x = 0, principal_y = 0;  // offset of the principal point, fraction of the film

@@ -42,7 +42,7 @@ inline void make_light(SceneDescription& scene, uint32_t shape, const Color& rad
 inline void look_along_z(SceneDescription& scene, const Vec3& from, int width, int height) {
   scene.sensor.to_world = Mat4::Identity();
   scene.sensor.to_world.block<3, 1>(0, 3) = from;
-  scene.sensor.fov_x = 1.2f;
+  scene.sensor.fov = 1.2f;
   scene.sensor.film.width = width;
   scene.sensor.film.height = height;
   scene.sensor.film.filter = FilterType::box;

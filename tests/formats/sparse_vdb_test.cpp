@@ -4,6 +4,7 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
 
+#include "common/small_media.h"
 #include "formats/temporary_files.h"
 #include "formats/volume_io.h"
 #include "libguide/base/sampler.h"
@@ -96,6 +97,19 @@ void expect_every_looked_at_voxel(const Grid& grid, const VolumeGrid& volume) {
     filled += expected > 0;
   }
   EXPECT_GT(filled, 3000);
+}
+
+// Written in 16 bits to save space, as clouds often are.
+TEST_F(SparseVdb, HalfGridsComeBackToThePrecisionOfHalf) {
+  const openvdb::FloatGrid::Ptr grid = empty_grid();
+  add_ball(grid, {0, 0, 0}, 6);
+  const VolumeGrid whole = written_and_read(grid);
+  grid->setSaveFloatAsHalf(true);
+  const VolumeGrid half = written_and_read(grid);
+  const std::vector<float> expected = dense_values(whole.voxels), read = dense_values(half.voxels);
+  ASSERT_EQ(read.size(), expected.size());
+  EXPECT_NE(read, expected);
+  for (size_t i = 0; i < read.size(); ++i) EXPECT_NEAR(read[i], expected[i], 1e-3f * expected[i]);
 }
 
 TEST_F(SparseVdb, FarApartBallsHaveOpenVdbsValuesEverywhere) {

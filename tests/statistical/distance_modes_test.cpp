@@ -22,7 +22,7 @@ SceneDescription lamp_over(const Medium& medium) {
       testing::add_shape(scene, testing::rectangle({-1, 1.5f, -1}, {3, 0, 0}, {0, 0, 3}), white);
   testing::make_light(scene, lamp, Color(9, 6, 5));
   testing::look_along_z(scene, {0.5f, 0.5f, -1}, 16, 16);
-  scene.sensor.fov_x = 0.7f;
+  scene.sensor.fov = 0.7f;
   scene.integrator.max_depth = 4;
   return scene;
 }

@@ -28,7 +28,7 @@ void expect_mean(const Mean& mean, const Color& expected, const char* what) {
         << what << " channel " << c;
 }
 
-void narrow_view(SceneDescription& scene) { scene.sensor.fov_x = 0.01f; }
+void narrow_view(SceneDescription& scene) { scene.sensor.fov = 0.01f; }
 
 TEST(Media, AnAbsorbingSlabFollowsBeerLambert) {
   const Color sigma(0.2f, 1, 3);

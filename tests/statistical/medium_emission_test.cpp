@@ -41,7 +41,7 @@ RenderOptions with_variance(int spp) {
 
 SceneDescription slab(const Color& sigma, const Color& albedo) {
   SceneDescription scene = box_of(glowing(homogeneous(sigma, albedo)), {-50, -50, -1}, {50, 50, 1});
-  scene.sensor.fov_x = 0.01f;
+  scene.sensor.fov = 0.01f;
   return scene;
 }
 
@@ -87,7 +87,7 @@ TEST(MediumEmission, LightsSurfaces) {
   const int grey = testing::add_two_sided(description, "grey", DiffuseMaterial{Texture(0.5f)});
   testing::add_shape(description, testing::rectangle({-5, -5, 0}, {0, 10, 0}, {10, 0, 0}), grey);
   testing::look_along_z(description, {0, 0, -1e-4f}, 8, 8);
-  description.sensor.fov_x = 0.01f;
+  description.sensor.fov = 0.01f;
   const Color t = Color::Constant(std::exp(-0.1f));
   const Scene scene(description);
   expect_mean(render(scene, {}, with_variance(64), nullptr, {}), kLe * (1 - t) + 0.5f * kLe * t,

@@ -237,7 +237,7 @@ TEST(RenderFurnace, DiffuseSphereUnderConstantLightReflectsItsAlbedo) {
   testing::add_shape(description, Sphere{{0, 0, 3}, 1.0f, Mat3::Identity()}, grey);
   description.emitters.push_back(ConstantEnvironment{Color(1, 2, 3)});
   testing::look_along_z(description, {0, 0, 0}, 3, 3);
-  description.sensor.fov_x = 0.1f;
+  description.sensor.fov = 0.1f;
   const Scene scene(std::move(description));
   RenderOptions options;
   options.spp = 16384;  // one standard deviation of a sample is a quarter of the radiance

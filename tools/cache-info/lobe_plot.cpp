@@ -34,8 +34,10 @@ DiskPicture picture_of(std::span<const GaussianComponent> components, int size) 
 }
 
 // About 64 blocks along the side: a cell saw a few thousand photons.
-DiskPicture picture_of_photons(const std::string& path, const MappedCache& cache, uint32_t index,
-                               int size, const ToolRun& run) {
+DiskPicture picture_of_photons(const LobePlotArguments& arguments, const MappedCache& cache,
+                               uint32_t index, const ToolRun& run) {
+  const std::string& path = arguments.samples;
+  const int size = arguments.size;
   PhotonReader reader(path);
   const PhotonHeader& header = reader.header();
   require_same_scene(path, header.provenance, cache.provenance().scene_name,
@@ -49,7 +51,8 @@ DiskPicture picture_of_photons(const std::string& path, const MappedCache& cache
   for (std::vector<Photon> photons; reader.read(&photons);) {
     run.stop_if_interrupted();
     for (const Photon& p : photons)
-      if (find_leaf(view.nodes, p.position, p.normal) == index)
+      if ((arguments.direct || p.path_depth > 0) &&
+          find_leaf(view.nodes, p.position, p.normal) == index)
         picture.add(direction_to_disk(frame.to_local(p.direction)), luminance(p.power));
   }
   picture.average_blocks(std::max(size / 64, 1));
@@ -108,7 +111,7 @@ void plot_cell(const ToolRun& run, const std::string& path, const LobePlotArgume
   std::vector<DiskPicture> pictures = {picture_of(
       view.components.subspan(cell.first_component, cell.component_count), arguments.size)};
   if (!arguments.samples.empty())
-    pictures.push_back(picture_of_photons(arguments.samples, cache, *index, arguments.size, run));
+    pictures.push_back(picture_of_photons(arguments, cache, *index, run));
   write_disks(arguments.output, pictures);
   report(run, arguments,
          fmt::format("cell {}, {} components, {:.0f} effective samples{}", *index,

@@ -12,6 +12,7 @@ struct LobePlotArguments {
   std::string output;    // picture to write
   std::string samples;   // photon file, or empty
   std::string truth;     // picture of `render --sphere`, or empty
+  bool direct = false;   // photons straight from an emitter are drawn too
   SceneArguments scene;  // path empty: no BSDF beside the fit
   float elevation = 45;  // of wo, in degrees from the normal
   int size = 256;        // pixels along the side of one disk

@@ -159,6 +159,7 @@ class ToolRunner {
     install_signal_handlers();
     limit_.emplace(threads_ > 0 ? threads_ : default_threads());
     run_.command_line_ = canonical_command_line(app_, info_.name);
+    run_.outputs_ = files_of(app_, kOutput);
     run_.stdout_taken_ = uses_standard_stream(app_, kOutput);
     run_.control.stop = &stop_requested;
     run_.control.on_warning = [this](const std::string& message) { progress_.warn(message); };
@@ -197,6 +198,12 @@ void ToolRun::print(const std::string& line) const {
 
 void ToolRun::write_stats(const nlohmann::ordered_json& stats, const std::string& tag) const {
   if (!stats_path_.empty()) write_text_atomically(tagged(stats_path_, tag), stats.dump(2) + "\n");
+}
+
+void ToolRun::check_referred(const std::string& file) const {
+  for (const std::string& output : outputs_)
+    require(!same_file(output, file),
+            "the output \"{}\" is a file that the scene refers to: name another file", output);
 }
 
 void ToolRun::stop_if_interrupted() const {

@@ -42,12 +42,15 @@ class ToolRun {
   void print(const std::string& line) const;
   // Writes the file of --stats, if asked for; with a tag, its file tagged(..., tag).
   void write_stats(const nlohmann::ordered_json& stats, const std::string& tag = {}) const;
+  // Throws Misuse where an output would overwrite a file that an input refers to.
+  void check_referred(const std::string& file) const;
   // For stages whose partial result is of no use.
   void stop_if_interrupted() const;
 
  private:
   friend class ToolRunner;
   std::string command_line_, stats_path_;
+  std::vector<std::string> outputs_;
   bool quiet_ = false, stdout_taken_ = false;
 };
 

@@ -95,7 +95,9 @@ Bitmap total_variance(const ImageCompareOptions& options, const Image& image,
       if (has_color(reference, kVariance))
         add_term(of_file(reference, options.reference, kVariance), 1);
     } else {
-      add_term(of_file(read_image(variance), variance, ""), options.variance_samples);
+      const Image file = read_image(variance);
+      add_term(of_file(file, variance, has_color(file, kVariance) ? kVariance : ""),
+               options.variance_samples);
     }
   }
   return *sum;

@@ -1,4 +1,5 @@
 #include "formats/mitsuba/scene_texts.h"
+#include "libguide/scene/camera.h"
 
 namespace waylight {
 namespace {
@@ -15,14 +16,13 @@ class SensorTest : public testing::MitsubaScenes {
     return import_error("<sensor type=\"" + type + "\">\n" + children + "</sensor>");
   }
   float fov(const std::string& axis, int width, int height) {
-    const float radians =
+    return degrees_x(
         sensor(fmt::format("<float name=\"fov\" value=\"60\"/><string name=\"fov_axis\" "
                            "value=\"{}\"/><film type=\"hdrfilm\"><integer name=\"width\" "
                            "value=\"{}\"/><integer name=\"height\" value=\"{}\"/></film>",
-                           axis, width, height))
-            .fov_x;
-    return radians * 180 / kPi;
+                           axis, width, height)));
   }
+  float degrees_x(const SensorDescription& s) { return 360 / kPi * std::atan(tan_half_fov_x(s)); }
   FilmDescription film(const std::string& children, const std::string& version = "3.0.0") {
     return sensor("<film type=\"hdrfilm\">" + children + "</film>", "perspective", version).film;
   }
@@ -42,12 +42,17 @@ TEST_F(SensorTest, FocalLengthRefersToTheDiagonalOf35mmFilm) {
   // The diagonal of a 3:2 picture at 50 mm spans 46.79 degrees, its width 39.6.
   const std::string film = R"(<film type="hdrfilm"><integer name="width" value="300"/>
     <integer name="height" value="200"/></film>)";
-  const float degrees = 180 / kPi;
-  EXPECT_NEAR(sensor(film).fov_x * degrees, 39.5978f, 1e-3);
-  EXPECT_NEAR(sensor(film + "<string name=\"focal_length\" value=\"50mm\"/>").fov_x * degrees,
-              39.5978f, 1e-3);
-  EXPECT_NEAR(sensor(film + "<float name=\"focal_length\" value=\"18\"/>").fov_x * degrees, 90,
+  EXPECT_NEAR(degrees_x(sensor(film)), 39.5978f, 1e-3);
+  EXPECT_NEAR(degrees_x(sensor(film + "<string name=\"focal_length\" value=\"50mm\"/>")), 39.5978f,
               1e-3);
+  EXPECT_NEAR(degrees_x(sensor(film + "<float name=\"focal_length\" value=\"18\"/>")), 90, 1e-3);
+}
+
+TEST_F(SensorTest, FieldOfViewKeepsItsAxisInAFilmOfAnotherShape) {
+  SensorDescription s = sensor("<float name=\"fov\" value=\"60\"/>"
+                               "<string name=\"fov_axis\" value=\"y\"/>");
+  s.film.width = 200, s.film.height = 100;
+  EXPECT_NEAR(degrees_x(s), 98.2132f, 1e-3);
 }
 
 TEST_F(SensorTest, LensAndPrincipalPointAreRead) {
@@ -156,7 +161,7 @@ TEST_F(SensorTest, TheFirstOfSeveralSensorsIsUsed) {
   const SceneDescription scene = import(R"(
     <sensor type="perspective"><float name="fov" value="90"/></sensor>
     <sensor type="perspective"><float name="fov" value="20"/></sensor>)");
-  EXPECT_NEAR(scene.sensor.fov_x, kPi / 2, 1e-5f);
+  EXPECT_NEAR(scene.sensor.fov, kPi / 2, 1e-5f);
   EXPECT_TRUE(mentions(warnings_.at(0), "left out"));
 }
 

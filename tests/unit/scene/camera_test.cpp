@@ -11,7 +11,7 @@ SensorDescription sensor(int width, int height) {
   SensorDescription s;
   s.film.width = width;
   s.film.height = height;
-  s.fov_x = kPi / 2;
+  s.fov = kPi / 2;
   return s;
 }
 
@@ -65,7 +65,7 @@ TEST(Camera, PrincipalOffsetMovesTheView) {
 
 TEST(Camera, RefusesAnImpossibleFieldOfView) {
   SensorDescription s = sensor(200, 100);
-  s.fov_x = kPi;
+  s.fov = kPi;
   EXPECT_THROW(Camera{s}, Error);
 }
 
