@@ -1,5 +1,7 @@
 #include "formats/mitsuba/element.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -23,6 +25,16 @@ size_t edit_distance(const std::string& a, const std::string& b) {
     last = row;
   }
   return last[b.size()];
+}
+
+// Enough for all types and presets; the ids of a scene may be thousands.
+std::string list_of(const std::vector<std::string>& names) {
+  constexpr ptrdiff_t kMost = 40;
+  if (names.empty()) return "";
+  const bool all = std::ssize(names) <= kMost;
+  return fmt::format("; known are {}{}",
+                     fmt::join(names.begin(), all ? names.end() : names.begin() + kMost, ", "),
+                     all ? "" : ", ...");
 }
 
 bool is_file(const fs::path& path) {
@@ -63,9 +75,9 @@ std::string Document::find_file(const Element& by, const std::string& relative) 
           path);
 }
 
-std::string did_you_mean(const std::string& unknown, const std::vector<std::string>& known) {
+const std::string* nearest_name(const std::string& unknown, const std::vector<std::string>& known) {
   constexpr size_t kLongest = 128;  // names beyond are no slips, and the distance is quadratic
-  if (unknown.size() > kLongest) return "";
+  if (unknown.size() > kLongest) return nullptr;
   const std::string* nearest = nullptr;
   size_t least = std::max<size_t>(2, unknown.size() / 3) + 1;
   for (const std::string& candidate : known) {
@@ -73,7 +85,12 @@ std::string did_you_mean(const std::string& unknown, const std::vector<std::stri
     const size_t distance = edit_distance(unknown, candidate);
     if (distance < least && distance < candidate.size()) least = distance, nearest = &candidate;
   }
-  return nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : "";
+  return nearest;
+}
+
+std::string did_you_mean(const std::string& unknown, const std::vector<std::string>& known) {
+  const std::string* nearest = nearest_name(unknown, known);
+  return nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : list_of(known);
 }
 
 }  // namespace waylight::mitsuba

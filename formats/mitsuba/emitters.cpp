@@ -127,8 +127,6 @@ Texture import_area_radiance(ImportContext& context, const Element& emitter) {
             did_you_mean(emitter.type, {"area"}));
   const Texture radiance =
       texture_property(context, properties, "radiance", Texture(Color(Color::Ones())));
-  if (radiance.constant() && radiance.mean().minCoeff() < 0)
-    fail_at(emitter, "its radiance is negative");
   if (context.document.old_dialect && properties.has("scale"))
     context.warn(
         fmt::format("{}: an area light has no scale, ignored as Mitsuba does", emitter.where()));

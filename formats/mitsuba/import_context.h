@@ -29,7 +29,7 @@ struct ImportContext {
 // Mitsuba's v = 0 is the top row of a bitmap, here it is the bottom one: shapes carry 1 - v, and
 // to_uv, which acts on Mitsuba's, is put between two flips.
 Texture import_texture(ImportContext& context, const Element& element);
-// A property that is a texture, a colour or a number.
+// A property that is a texture, a colour or a number; Error for a negative one.
 Texture texture_property(ImportContext& context, Properties& properties, const std::string& name,
                          const Texture& otherwise);
 

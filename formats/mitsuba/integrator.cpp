@@ -10,11 +10,26 @@ namespace {
 // Path tracers; all of them estimate the same image.
 const std::vector<std::string> kPathTracers = {"path",       "volpath", "volpath_simple",
                                                "volpathmis", "bdpt",    "direct"};
+// Others of either dialect and of guiding renderers, of which only the depths are used.
+const std::vector<std::string> kOthers = {
+    "ptracer", "prb",          "prbvolpath", "guidedpath", "path_guiding_integrator",
+    "pssmlt",  "mlt",          "erpt",       "ppm",        "sppm",
+    "vpl",     "photonmapper", "ao",         "depth"};
 // Hold another integrator and add channels or a stopping rule to it.
 const std::vector<std::string> kWrappers = {"moment", "aov", "adaptive", "irrcache"};
 
 bool is_one_of(const std::string& type, const std::vector<std::string>& types) {
   return std::find(types.begin(), types.end(), type) != types.end();
+}
+
+void warn_of_depths_only(const ImportContext& context, const Element& integrator) {
+  std::vector<std::string> known = kPathTracers;
+  for (const auto* more : {&kOthers, &kWrappers})
+    known.insert(known.end(), more->begin(), more->end());
+  const std::string* nearest =
+      is_one_of(integrator.type, kOthers) ? nullptr : nearest_name(integrator.type, known);
+  context.warn(fmt::format("{}: only its depths are used{}", integrator.where(),
+                           nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : ""));
 }
 
 void check(const Element& integrator, const IntegratorDefaults& defaults) {
@@ -37,8 +52,7 @@ void import_integrator(ImportContext& context, const Element& integrator) {
   defaults.rr_depth = properties.integer("rr_depth", defaults.rr_depth);
   defaults.hide_emitters = properties.boolean("hide_emitters", false);
   check(integrator, defaults);
-  if (!is_one_of(integrator.type, kPathTracers))
-    return context.warn(fmt::format("{}: only its depths are used", integrator.where()));
+  if (!is_one_of(integrator.type, kPathTracers)) return warn_of_depths_only(context, integrator);
   properties.ignore({"strict_normals", "sample_num", "delta", "light_image", "sample_direct",
                      "use_mis", "shading_samples", "emitter_samples", "bsdf_samples",
                      "samples_per_pass", "timeout", "block_size"});

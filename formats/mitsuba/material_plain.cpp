@@ -19,7 +19,7 @@ MaterialModel import_phong(ImportContext& context, Properties& properties) {
       texture_property(context, properties, "diffuse_reflectance", m.diffuse_reflectance);
   m.specular_reflectance =
       texture_property(context, properties, "specular_reflectance", m.specular_reflectance);
-  m.exponent = width_property(context, properties, "exponent", m.exponent);
+  m.exponent = texture_property(context, properties, "exponent", m.exponent);
   return m;
 }
 
@@ -34,9 +34,9 @@ MaterialModel import_ward(ImportContext& context, Properties& properties) {
       texture_property(context, properties, "diffuse_reflectance", m.diffuse_reflectance);
   m.specular_reflectance =
       texture_property(context, properties, "specular_reflectance", m.specular_reflectance);
-  const Texture alpha = width_property(context, properties, "alpha", m.alpha_u);
-  m.alpha_u = width_property(context, properties, "alpha_u", alpha);
-  m.alpha_v = width_property(context, properties, "alpha_v", alpha);
+  const Texture alpha = texture_property(context, properties, "alpha", m.alpha_u);
+  m.alpha_u = texture_property(context, properties, "alpha_u", alpha);
+  m.alpha_v = texture_property(context, properties, "alpha_v", alpha);
   return m;
 }
 

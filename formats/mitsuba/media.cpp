@@ -28,11 +28,7 @@ PhaseFunction phase_property(ImportContext& context, Properties& medium) {
   if (nested.size() > 1) fail_at(*nested[1], "a medium takes one phase function");
   if (nested.empty())
     return medium.has("g") ? henyey_greenstein(medium, 0) : PhaseFunction(IsotropicPhase{});
-  Properties properties(context.document, *nested[0]);
-  const PhaseImporter importer = importer_of(*nested[0], kPhases, "phase function");
-  const PhaseFunction phase = importer(properties);
-  properties.finish();
-  return phase;
+  return import_phase(context, *nested[0]);
 }
 
 float scale_property(Properties& properties) {
@@ -165,6 +161,14 @@ Medium import_new(ImportContext& context, const Element& element) {
 }
 
 }  // namespace
+
+PhaseFunction import_phase(ImportContext& context, const Element& element) {
+  Properties properties(context.document, element);
+  const PhaseImporter importer = importer_of(element, kPhases, "phase function");
+  const PhaseFunction phase = importer(properties);
+  properties.finish();
+  return phase;
+}
 
 int import_medium(ImportContext& context, const Element& medium) {
   const auto known = context.media.find(&medium);

@@ -7,7 +7,12 @@
 
 namespace waylight::mitsuba {
 
-// volumes.cpp: a property that is a <volume>, a colour or a number.
+// media.cpp
+PhaseFunction import_phase(ImportContext& context, const Element& element);
+
+// volumes.cpp
+VolumeTexture import_volume(ImportContext& context, const Element& element);
+// A property that is a <volume>, a colour or a number.
 VolumeTexture volume_property(ImportContext& context, Properties& properties,
                               const std::string& name, const Color& otherwise);
 

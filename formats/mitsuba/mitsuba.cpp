@@ -1,6 +1,9 @@
 #include "formats/mitsuba.h"
 
+#include "formats/mitsuba/film.h"
 #include "formats/mitsuba/materials.h"
+#include "formats/mitsuba/media.h"
+#include "formats/mitsuba/references.h"
 #include "formats/scene_hash.h"
 
 namespace waylight {
@@ -52,6 +55,22 @@ class SceneAssembly {
   const Element *sensor_ = nullptr, *integrator_ = nullptr;
 };
 
+void import_alone(ImportContext& context, const Element& element) {
+  if (element.tag == "bsdf") import_material(context, element);
+  if (element.tag == "texture") import_texture(context, element);
+  if (element.tag == "medium") import_medium(context, element);
+  if (element.tag == "volume") import_volume(context, element);
+  if (element.tag == "phase") import_phase(context, element);
+  if (element.tag == "film") import_film(context, element);
+}
+
+// Imports what nothing refers to and drops it, so that mistakes there are errors too.
+void check_unreferenced(const ImportContext& context) {
+  SceneDescription dropped;
+  ImportContext scratch{context.document, context.options, dropped, {}, {}, context.bitmaps, {}};
+  for (const Element* element : unreferenced(context.document)) import_alone(scratch, *element);
+}
+
 void warn_of_unused_defines(const ImportContext& context) {
   for (const std::string& name : context.document.unused_defines)
     context.warn(
@@ -70,6 +89,7 @@ SceneDescription import_mitsuba(const std::string& path, const ImportOptions& op
   mitsuba::SceneAssembly assembly(context);
   for (const mitsuba::Element& element : document.root.children) assembly.import(element);
   assembly.finish();
+  mitsuba::check_unreferenced(context);
   if (options.two_sided) mitsuba::make_two_sided(scene);
   scene.hash = hash_scene(scene);
   return scene;

@@ -73,7 +73,11 @@ Vec3 Properties::vector(const std::string& name, const Vec3& otherwise) {
 
 Color Properties::color(const std::string& name, const Color& otherwise) {
   const Element* property = find(name);
-  return property ? parse_color(*property) : otherwise;
+  if (!property) return otherwise;
+  if (const Element* nested = object(name))
+    fail_at(*property, "is a <{}>, which is not supported in {}; give a colour", nested->tag,
+            element_.where());
+  return parse_color(*property);
 }
 
 Mat4 Properties::transform(const std::string& name) {

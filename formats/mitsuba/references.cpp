@@ -1,6 +1,7 @@
 #include "formats/mitsuba/references.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace waylight::mitsuba {
 namespace {
@@ -27,6 +28,14 @@ const Element& target(const Document& document, const Element& by) {
   for (const auto& [id, element] : document.ids) known.push_back(id);
   std::sort(known.begin(), known.end());
   fail_at(by, "nothing has the id \"{}\"{}", by.id, did_you_mean(by.id, known));
+}
+
+void add_targets(const Document& document, const Element& element,
+                 std::unordered_set<const Element*>& targets) {
+  for (const Element& child : element.children) {
+    if (child.tag == "ref") targets.insert(document.ids.at(child.id));
+    add_targets(document, child, targets);
+  }
 }
 
 class ReferenceCheck {
@@ -78,6 +87,15 @@ void collect_ids(Document& document, const std::vector<Element>& aliases) {
     if (alias.id.empty() || !as) fail_at(alias, "needs an id and \"as\"");
     add_id(document, *as, &target(document, alias), alias);
   }
+}
+
+std::vector<const Element*> unreferenced(const Document& document) {
+  std::unordered_set<const Element*> targets;
+  add_targets(document, document.root, targets);
+  std::vector<const Element*> rest;
+  for (const Element& element : document.root.children)
+    if (!targets.count(&element)) rest.push_back(&element);
+  return rest;
 }
 
 void check_references(const Document& document) {

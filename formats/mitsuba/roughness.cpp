@@ -31,9 +31,9 @@ Roughness roughness_property(ImportContext& context, Properties& properties) {
     fail_at(properties.element(), "has alpha beside alpha_u or alpha_v; give one or the other");
   Roughness r;
   r.distribution = distribution_property(context, properties);
-  const Texture alpha = width_property(context, properties, "alpha", Texture(0.1f));
-  r.alpha_u = width_property(context, properties, "alpha_u", alpha);
-  r.alpha_v = width_property(context, properties, "alpha_v", alpha);
+  const Texture alpha = texture_property(context, properties, "alpha", Texture(0.1f));
+  r.alpha_u = texture_property(context, properties, "alpha_u", alpha);
+  r.alpha_v = texture_property(context, properties, "alpha_v", alpha);
   return r;
 }
 

@@ -1,5 +1,7 @@
 // <shape>: geometry, and what hangs on it.
 
+#include <algorithm>
+
 #include "formats/mitsuba/shape_geometry.h"
 
 namespace waylight::mitsuba {
@@ -53,6 +55,25 @@ int choose_material(ImportContext& context, const Element* bsdf, const Element* 
   return emitter ? black_material(context) : grey_material(context);
 }
 
+// Squares of these and areas stay far from the largest float.
+constexpr float kMostCoordinate = 1e15f;
+
+bool is_near(const Vec3& p) { return (p.array().abs() <= kMostCoordinate).all(); }
+bool is_near(const Sphere& sphere) {
+  return is_near(sphere.center) && sphere.radius <= kMostCoordinate;
+}
+bool is_near(const TriangleMesh& mesh) {
+  return std::all_of(mesh.positions.begin(), mesh.positions.end(),
+                     [](const Vec3& p) { return is_near(p); });
+}
+
+void check_coordinates(const Element& element, bool near) {
+  if (!near)
+    fail_at(element,
+            "reaches beyond {:g} of the origin; give it smaller coordinates or a smaller scale",
+            kMostCoordinate);
+}
+
 // A shape, and the <emitter type="area"> on it.
 struct ImportedShape {
   Shape shape;
@@ -65,6 +86,7 @@ ImportedShape import_single(ImportContext& context, const Element& element) {
   Shape& shape = result.shape;
   shape.name = element.id.empty() ? fmt::format("{}:{}", element.type, element.line) : element.id;
   shape.geometry = import_geometry(context, properties);
+  check_coordinates(element, std::visit([](const auto& g) { return is_near(g); }, shape.geometry));
   shape.flip_normals = properties.boolean("flip_normals", false);
   shape.interior_medium = import_boundary(context, properties, "interior");
   shape.exterior_medium = import_boundary(context, properties, "exterior");
@@ -125,6 +147,7 @@ void import_instance(ImportContext& context, const Element& element) {
   Instance instance;
   instance.group = import_group(context, *group);
   instance.to_world = properties.transform("to_world");
+  check_coordinates(element, (instance.to_world.array().abs() <= kMostCoordinate).all());
   properties.finish();
   context.scene.instances.push_back(instance);
 }

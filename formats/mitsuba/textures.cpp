@@ -52,6 +52,20 @@ TextureFilter filter_property(Properties& properties) {
   return choose(properties, "filter_type", kFilters, "bilinear");
 }
 
+Texture color_or_texture(ImportContext& context, Properties& properties, const std::string& name,
+                         const Texture& otherwise) {
+  if (!properties.has(name)) return otherwise;
+  if (const Element* object = properties.object(name)) return import_texture(context, *object);
+  return Texture(properties.color(name, Color::Zero()));
+}
+
+// Pixels are left alone: files have values a little below 0 of colours that sRGB cannot show.
+float least_value(const Texture& texture) {
+  if (const auto* board = std::get_if<CheckerboardTexture>(&texture.source))
+    return (texture.scale * board->color0.min(board->color1)).minCoeff();
+  return texture.constant() ? texture.mean().minCoeff() : 0;
+}
+
 // One channel as grey.
 std::shared_ptr<const Bitmap> extract(Properties& properties, const Bitmap& bitmap, int channel) {
   if (channel == 3 && bitmap.alpha.empty())
@@ -86,10 +100,19 @@ Texture import_bitmap(ImportContext& context, Properties& properties) {
   return texture;
 }
 
-Texture import_checkerboard(ImportContext& /*context*/, Properties& properties) {
+// A colour, or a texture that is one everywhere.
+Color constant_property(ImportContext& context, Properties& properties, const std::string& name,
+                        float otherwise) {
+  const Texture texture = color_or_texture(context, properties, name, Texture(otherwise));
+  if (texture.constant()) return texture.mean();
+  fail_at(properties.element(), "its {} is a <texture>, which is not supported; give a colour",
+          name);
+}
+
+Texture import_checkerboard(ImportContext& context, Properties& properties) {
   Texture texture;
-  texture.source = CheckerboardTexture{properties.color("color0", Color::Constant(0.4f)),
-                                       properties.color("color1", Color::Constant(0.2f))};
+  texture.source = CheckerboardTexture{constant_property(context, properties, "color0", 0.4f),
+                                       constant_property(context, properties, "color1", 0.2f)};
   // The pattern keeps Mitsuba's coordinates, in which it is defined.
   texture.to_uv = to_uv(uv_property(properties) * flip_v());
   return texture;
@@ -122,6 +145,15 @@ Texture import_scale(ImportContext& context, Properties& properties) {
   return texture;
 }
 
+std::shared_ptr<const Bitmap> read_picture(const Element& element, const std::string& path,
+                                           ColorSpace space) {
+  try {
+    return std::make_shared<Bitmap>(read_bitmap(path, space));
+  } catch (const Error& error) {
+    fail_at(element, "{}", error.what());
+  }
+}
+
 using TextureImporter = Texture (*)(ImportContext&, Properties&);
 const std::map<std::string, TextureImporter> kImporters = {
     {"bitmap", import_bitmap}, {"checkerboard", import_checkerboard}, {"scale", import_scale}};
@@ -148,7 +180,7 @@ std::shared_ptr<const Bitmap> bitmap_property(ImportContext& context, Properties
   const std::string path = context.document.find_file(element, name);
   std::shared_ptr<const Bitmap>& known =
       context.bitmaps[fmt::format("{}:{}", static_cast<int>(space), path)];
-  if (!known) known = std::make_shared<Bitmap>(read_bitmap(path, space));
+  if (!known) known = read_picture(element, path, space);
   return known;
 }
 
@@ -163,16 +195,8 @@ Texture import_texture(ImportContext& context, const Element& element) {
 
 Texture texture_property(ImportContext& context, Properties& properties, const std::string& name,
                          const Texture& otherwise) {
-  if (!properties.has(name)) return otherwise;
-  if (const Element* object = properties.object(name)) return import_texture(context, *object);
-  return Texture(properties.color(name, Color::Zero()));
-}
-
-Texture width_property(ImportContext& context, Properties& properties, const std::string& name,
-                       const Texture& otherwise) {
-  const Texture texture = texture_property(context, properties, name, otherwise);
-  if (texture.constant() && texture.mean().minCoeff() < 0)
-    fail_at(properties.element(), "its {} is negative", name);
+  const Texture texture = color_or_texture(context, properties, name, otherwise);
+  if (least_value(texture) < 0) fail_at(properties.element(), "its {} is negative", name);
   return texture;
 }
 

@@ -13,8 +13,4 @@ ColorSpace color_space_property(ImportContext& context, Properties& properties);
 std::shared_ptr<const Bitmap> bitmap_property(ImportContext& context, Properties& properties,
                                               ColorSpace space);
 
-// As texture_property, for widths and exponents: a constant must be at least 0.
-Texture width_property(ImportContext& context, Properties& properties, const std::string& name,
-                       const Texture& otherwise);
-
 }  // namespace waylight::mitsuba

@@ -8,7 +8,8 @@ namespace waylight::mitsuba {
 template <typename Value>
 std::vector<std::string> names_of(const std::map<std::string, Value>& table) {
   std::vector<std::string> names;
-  for (const auto& [name, value] : table) names.push_back(name);
+  for (const auto& [name, value] : table)
+    if (!name.empty()) names.push_back(name);
   return names;
 }
 

@@ -54,6 +54,14 @@ void read_lookup(Properties& properties, VolumeGrid& grid) {
   properties.ignore({"send_data", "raw", "accel"});
 }
 
+VolumeGrid read_grid(const Element& element, const std::string& path, const std::string& gridname) {
+  try {
+    return is_vdb(path) ? read_vdb(path, gridname) : read_vol(path);
+  } catch (const Error& error) {
+    fail_at(element, "{}", error.what());
+  }
+}
+
 VolumeTexture import_grid(ImportContext& context, Properties& properties) {
   const std::string name = properties.text("filename", "");
   if (name.empty()) fail_at(properties.element(), "needs a filename");
@@ -61,8 +69,7 @@ VolumeTexture import_grid(ImportContext& context, Properties& properties) {
   const std::string gridname = properties.text("gridname", "");
   if (!is_vdb(path) && !gridname.empty())
     fail_at(properties.element(), "gridname is for .vdb files, a .vol file has one grid");
-  auto grid =
-      std::make_shared<VolumeGrid>(is_vdb(path) ? read_vdb(path, gridname) : read_vol(path));
+  auto grid = std::make_shared<VolumeGrid>(read_grid(properties.element(), path, gridname));
   const Mat4 box = box_property(context, properties, grid->grid_to_world, is_vdb(path));
   grid->grid_to_world = properties.transform("to_world") * box;
   if (!(std::abs(grid->grid_to_world.determinant()) > 0))
@@ -79,6 +86,8 @@ using VolumeImporter = VolumeTexture (*)(ImportContext&, Properties&);
 const std::map<std::string, VolumeImporter> kImporters = {{"gridvolume", import_grid},
                                                           {"constvolume", import_constant}};
 
+}  // namespace
+
 VolumeTexture import_volume(ImportContext& context, const Element& element) {
   if (element.tag != "volume") fail_at(element, "stands where a <volume> is needed");
   Properties properties(context.document, element);
@@ -87,8 +96,6 @@ VolumeTexture import_volume(ImportContext& context, const Element& element) {
   properties.finish();
   return volume;
 }
-
-}  // namespace
 
 VolumeTexture volume_property(ImportContext& context, Properties& properties,
                               const std::string& name, const Color& otherwise) {

@@ -187,12 +187,20 @@ TEST_F(DocumentTest, WhatIsNoSceneIsRefused) {
   }
 }
 
-TEST(DidYouMean, FindsSlipsAndNothingFar) {
+TEST(DidYouMean, FindsSlipsAndListsWhatIsKnownOtherwise) {
   const std::vector<std::string> known = {"diffuse", "dielectric", "to_world"};
   EXPECT_TRUE(mentions(mitsuba::did_you_mean("difuse", known), "\"diffuse\""));
   EXPECT_TRUE(mentions(mitsuba::did_you_mean("deilectric", known), "\"dielectric\""));
   EXPECT_TRUE(mentions(mitsuba::did_you_mean("toWorld", known), "\"to_world\""));
-  EXPECT_EQ(mitsuba::did_you_mean("hair", known), "");
+  EXPECT_EQ(mitsuba::did_you_mean("hair", known), "; known are diffuse, dielectric, to_world");
+  EXPECT_EQ(mitsuba::did_you_mean("hair", {}), "");
+}
+
+TEST(DidYouMean, ListsNoThousandNames) {
+  std::vector<std::string> known;
+  for (int i = 0; i < 1000; ++i) known.push_back(fmt::format("material-{}", i));
+  const std::string hint = mitsuba::did_you_mean("hair", known);
+  EXPECT_TRUE(mentions(hint, "material-39, ...") && !mentions(hint, "material-40")) << hint;
 }
 
 }  // namespace

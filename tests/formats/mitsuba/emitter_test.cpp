@@ -158,6 +158,7 @@ TEST(MitsubaEmitters, WrongEmittersAreNamed) {
   };
   const Bad cases[] = {
       {"pont", "", "did you mean \"point\"?"},
+      {"projector", "", "known are area, constant, directional"},
       {"point", "<rgb name=\"intensity\" value=\"-1\"/>", "intensity is negative"},
       {"point", "<rgb name=\"radiance\" value=\"1\"/>", "no property of that name"},
       {"point",

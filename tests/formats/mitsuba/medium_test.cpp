@@ -197,6 +197,16 @@ TEST(MitsubaMedia, EmissionOfAMediumThatDoesNotAbsorbIsWarnedOf) {
   }
 }
 
+TEST(MitsubaMedia, DamagedGridsNameGridAndElement) {
+  Content content(Dialect::current);
+  write_grid(content.file("a.vol"));
+  std::filesystem::resize_file(content.file("a.vol"), 50);
+  const std::string error = content.error_of(medium(
+      "heterogeneous", "\n<volume name=\"sigma_t\" type=\"gridvolume\">" + kGrid + "</volume>"));
+  EXPECT_NE(error.find("scene.xml\":3: <volume type=\"gridvolume\">"), std::string::npos) << error;
+  EXPECT_NE(error.find("a.vol"), std::string::npos) << error;
+}
+
 TEST(MitsubaMedia, WrongMediaAreNamed) {
   struct Bad {
     const char* type;
@@ -221,7 +231,7 @@ TEST(MitsubaMedia, WrongMediaAreNamed) {
       {"homogeneous", kEmission + "<float name=\"emissionScale\" value=\"-1\"/>",
        "emission_scale is negative"},
       {"homogeneous", "<float name=\"emissionScale\" value=\"1\"/>", "without an emission"},
-      {"homogeneous", "<phase type=\"rayleigh\"/>", "unknown phase function"},
+      {"homogeneous", "<phase type=\"rayleigh\"/>", "known are hg, isotropic"},
       {"homogeneous", "<phase type=\"hg\"><float name=\"g\" value=\"1\"/></phase>", "mean cosine"},
       {"heterogeneous", kAlbedo, "needs a <volume> \"density\""},
       {"heterogeneous", "<volume name=\"density\" type=\"gridvolume\"/>" + kAlbedo,

@@ -110,7 +110,8 @@ TEST_F(SensorTest, WrongValuesNameTheElement) {
   const std::pair<const char*, const char*> cases[] = {
       {"<float name=\"fov\" value=\"180\"/>", "fov"},
       {"<float name=\"fovv\" value=\"1\"/>", "did you mean \"fov\""},
-      {"<string name=\"fov_axis\" value=\"z\"/><float name=\"fov\" value=\"9\"/>", "fov_axis"},
+      {"<string name=\"fov_axis\" value=\"z\"/><float name=\"fov\" value=\"9\"/>",
+       "unknown fov_axis \"z\"; known are x, y, diagonal"},
       {"<float name=\"fov\" value=\"9\"/><float name=\"focal_length\" value=\"9\"/>", "both"},
       {"<film type=\"hdrfilm\"><integer name=\"width\" value=\"0\"/></film>", "width is 0"},
       {"<film type=\"hdrfilm\"><integer name=\"width\" value=\"99999999\"/></film>", "width"},
@@ -150,6 +151,10 @@ TEST_F(SensorTest, OtherIntegratorsAreAcceptedWithAWarning) {
     <integer name="max_depth" value="9"/><integer name="anything" value="3"/></integrator>)");
   EXPECT_EQ(scene.integrator.max_depth, 9);
   EXPECT_TRUE(mentions(warnings_.at(0), "guidedpath"));
+  EXPECT_FALSE(mentions(warnings_.at(0), "did you mean"));
+  warnings_.clear();
+  import("<integrator type=\"pat\"/>");
+  EXPECT_TRUE(mentions(warnings_.at(0), "did you mean \"path\"?"));
   EXPECT_TRUE(
       mentions(import_error("<integrator type=\"path\"/><integrator type=\"path\"/>"), "already"));
   EXPECT_TRUE(mentions(import_error(R"(<integrator type="path">
@@ -168,6 +173,45 @@ TEST_F(SensorTest, TheFirstOfSeveralSensorsIsUsed) {
 TEST_F(SensorTest, WhatCannotStandAtTheTopIsAnError) {
   EXPECT_TRUE(mentions(import_error("<float name=\"x\" value=\"1\"/>"), "top of a scene"));
   EXPECT_TRUE(mentions(import_error("<bsdf type=\"diffuse\"/>"), "needs an id"));
+}
+
+struct Unreferenced {
+  const char* element;
+  const char* says;
+};
+
+TEST_F(SensorTest, MistakesInWhatNothingRefersToAreErrors) {
+  const Unreferenced cases[] = {
+      {R"(<bsdf type="difuse" id="z"/>)", "did you mean \"diffuse\""},
+      {R"(<bsdf type="diffuse" id="z"><float name="reflectanse" value="1"/></bsdf>)",
+       "did you mean \"reflectance\""},
+      {R"(<texture type="bitmep" id="z"/>)", "did you mean \"bitmap\""},
+      {R"(<texture type="bitmap" id="z"><string name="filename" value="no.png"/></texture>)",
+       "there is no file"},
+      {R"(<medium type="homogenous" id="z"/>)", "did you mean \"homogeneous\""},
+      {R"(<volume type="constvolum" id="z"/>)", "did you mean \"constvolume\""},
+      {R"(<phase type="gh" id="z"/>)", "did you mean \"hg\""},
+      {R"(<film type="hdrfim" id="z"/>)", "did you mean \"hdrfilm\""}};
+  for (const auto& [element, says] : cases) {
+    const std::string error = import_error(std::string("\n") + element);
+    EXPECT_TRUE(mentions(error, says) && mentions(error, "scene.xml\":3: <")) << error;
+  }
+}
+
+TEST_F(SensorTest, WhatNothingRefersToLeavesTheSceneAsItIs) {
+  const std::string cube =
+      R"(<bsdf type="diffuse" id="a"/><shape type="cube"><ref id="a"/></shape>)";
+  const SceneDescription with = import(cube + R"(<bsdf type="conductor" id="b"/>
+      <bsdf type="twosided" id="c"><ref id="a"/></bsdf><medium type="homogeneous" id="m"/>)");
+  EXPECT_EQ(with.materials.size(), 1u);
+  EXPECT_TRUE(with.media.empty());
+  EXPECT_TRUE(with.hash == import(cube).hash);
+}
+
+TEST_F(SensorTest, LenientReplacesUnknownMaterialsThatNothingRefersTo) {
+  options_.lenient = true;
+  EXPECT_TRUE(import(R"(<bsdf type="principled" id="z"/>)").materials.empty());
+  EXPECT_TRUE(mentions(warnings_.at(1), "taken as grey")) << warnings_.at(1);  // 0: no sensor
 }
 
 TEST_F(SensorTest, UnusedDefineIsAWarning) {

@@ -155,6 +155,20 @@ TEST_F(ShapesTest, DamagedMeshNamesMeshAndElement) {
   EXPECT_TRUE(mentions(error, "scene.xml\":2") && mentions(error, "a.ply")) << error;
 }
 
+TEST_F(ShapesTest, CoordinatesBeyondReasonNameTheShape) {
+  const std::string far =
+      "<transform name=\"to_world\"><translate x=\"1e30\"/></transform></shape>";
+  put_triangle();
+  for (const std::string& body :
+       {std::string("<shape type=\"sphere\"><float name=\"radius\" value=\"1e30\"/></shape>"),
+        "<shape type=\"sphere\">" + far, "<shape type=\"cube\">" + far,
+        R"(<shape type="obj"><string name="filename" value="a.obj"/>)" + far,
+        R"(<shape type="instance"><shape type="shapegroup"/>)" + far}) {
+    const std::string error = import_error("\n" + body);
+    EXPECT_TRUE(mentions(error, "scene.xml\":3: <shape") && mentions(error, "1e+15")) << error;
+  }
+}
+
 TEST_F(ShapesTest, RepairsAndIgnoredOptionsAreWarnings) {
   put("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 0\nf 1//1 2//1 3//1\n");
   shape(file_shape("obj", "a.obj", "<float name=\"max_smooth_angle\" value=\"30\"/>"));
@@ -166,6 +180,7 @@ TEST_F(ShapesTest, RepairsAndIgnoredOptionsAreWarnings) {
 TEST_F(ShapesTest, UnknownShapeIsAnErrorOrLeftOut) {
   const std::string error = import_error("<shape type=\"spehre\"/>");
   EXPECT_TRUE(mentions(error, "did you mean \"sphere\"")) << error;
+  EXPECT_TRUE(mentions(import_error("<shape type=\"heightfield\"/>"), "known are obj, ply"));
   options_.lenient = true;
   EXPECT_TRUE(import("<shape type=\"heightfield\"/>").shapes.empty());
   EXPECT_TRUE(mentions(warnings_.at(0), "heightfield"));

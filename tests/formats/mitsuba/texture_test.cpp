@@ -144,6 +144,26 @@ TEST(MitsubaTextures, CheckerboardHasItsFirstColourAtMitsubasOrigin) {
   EXPECT_EQ(fine.eval({0.01f, 0.991f}).x(), 0);
 }
 
+TEST(MitsubaTextures, CheckerboardTakesTexturesThatAreOneColour) {
+  const Texture board = Content(Dialect::old)
+                            .texture(
+                                "<texture type=\"checkerboard\" name=\"reflectance\"><texture "
+                                "type=\"scale\" name=\"color0\">"
+                                "<rgb name=\"value\" value=\"1 .5 0\"/><float name=\"scale\" "
+                                "value=\".5\"/></texture></texture>");
+  expect_color(board.eval(kTopLeft), {0.5f, 0.25f, 0});
+}
+
+TEST(MitsubaTextures, DamagedPicturesNamePictureAndElement) {
+  Content content(Dialect::current);
+  std::ofstream(content.file("a.png")) << "no picture";
+  const std::string error = content.error_of(
+      "<bsdf type=\"diffuse\">\n<texture type=\"bitmap\" name=\"reflectance\">"
+      "<string name=\"filename\" value=\"a.png\"/></texture></bsdf>");
+  EXPECT_NE(error.find("scene.xml\":3: <texture type=\"bitmap\">"), std::string::npos) << error;
+  EXPECT_NE(error.find("a.png"), std::string::npos) << error;
+}
+
 TEST(MitsubaTextures, ScaleMultipliesColoursBoardsAndPictures) {
   const auto scaled = [](const std::string& nested, const std::string& factor) {
     Content content(Dialect::old);
@@ -173,6 +193,15 @@ TEST(MitsubaTextures, WrongTexturesAreNamed) {
       {"<texture type=\"checkerboard\" name=\"reflectance\"><rgb name=\"colour0\" value=\"1\"/>"
        "</texture>",
        "did you mean \"color0\"?"},
+      {"<texture type=\"checkerboard\" name=\"reflectance\">"
+       "<texture type=\"checkerboard\" name=\"color1\"/></texture>",
+       "its color1 is a <texture>"},
+      {"<texture type=\"checkerboard\" name=\"reflectance\"><float name=\"color0\" value=\"-1\"/>"
+       "</texture>",
+       "its reflectance is negative"},
+      {"<texture type=\"scale\" name=\"reflectance\"><rgb name=\"value\" value=\"1\"/>"
+       "<float name=\"scale\" value=\"-1\"/></texture>",
+       "its reflectance is negative"},
       {"<texture type=\"scale\" name=\"reflectance\"/>", "needs a nested texture"}};
   for (const auto& [body, says] : cases) {
     const std::string error = Content(Dialect::current).error_of(with_type("diffuse", body));
