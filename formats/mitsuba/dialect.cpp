@@ -15,9 +15,10 @@ std::map<std::string, TagRule> make_rules() {
                           "integrator", "texture", "medium", "phase", "volume", "subsurface"})
     rules[tag] = {TagKind::object, {}};
   rules["scene"] = {TagKind::object, {"version"}};
-  for (const char* tag : {"float", "integer", "boolean", "string", "rgb", "srgb", "color"})
+  for (const char* tag : {"float", "integer", "boolean", "string", "color"})
     rules[tag] = {TagKind::value, {"value"}};
-  rules["spectrum"] = {TagKind::value, {"value", "filename", "scale"}};
+  rules["rgb"] = rules["srgb"] = {TagKind::value, {"value", "intent"}};
+  rules["spectrum"] = {TagKind::value, {"value", "filename", "scale", "intent"}};
   rules["blackbody"] = {TagKind::value, {"temperature", "scale"}};
   rules["point"] = rules["vector"] = {TagKind::value, {"x", "y", "z", "value"}};
   rules["transform"] = {TagKind::value, {}};

@@ -58,6 +58,11 @@ bool is_name_character(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
+bool may_have_children(const Element& element) {
+  const bool plugin = element.tag == "spectrum" && !element.type.empty();
+  return plugin || element.tag == "transform" || tag_rule(element.tag).kind == TagKind::object;
+}
+
 class DocumentParser {
  public:
   DocumentParser(const std::string& path, const ImportOptions& options)
@@ -189,8 +194,7 @@ class DocumentParser {
       return warn(fmt::format("{}: not an element of Mitsuba, ignored", element.where()));
     if (kind == TagKind::directive) return obey(file, element, parent, depth);
     if (element.tag == "scene") fail_at(element, "a <scene> within another element");
-    const bool is_leaf = tag_rule(parent.tag).kind != TagKind::object && parent.tag != "transform";
-    if (is_leaf || (kind == TagKind::step) != (parent.tag == "transform"))
+    if (!may_have_children(parent) || (kind == TagKind::step) != (parent.tag == "transform"))
       fail_at(element, "cannot stand in {}", parent.where());
     read_children(file, node, element, depth + 1);
     parent.children.push_back(std::move(element));

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "formats/mitsuba/import_context.h"
 #include "formats/mitsuba/parse_value.h"
 #include "formats/srgb.h"
@@ -33,27 +35,13 @@ Color parse_samples(const Element& element, const std::string& text) {
   for (char& c : spaced)
     if (c == ':') c = ' ';
   const std::vector<double> numbers = parse_numbers(element, spaced);
-  std::vector<std::pair<float, float>> samples;
-  for (size_t i = 0; i + 1 < numbers.size(); i += 2) {
-    samples.emplace_back(static_cast<float>(numbers[i]), static_cast<float>(numbers[i + 1]));
-    if (i > 0 && !(numbers[i] > numbers[i - 2]))
-      fail_at(element, "its wavelengths must increase, {} follows {}", numbers[i], numbers[i - 2]);
-  }
-  if (numbers.size() % 2 || samples.size() < 2)
-    fail_at(element, "needs two or more wavelength:value pairs");
-  return spectrum_to_rgb(samples);
+  std::vector<double> wavelengths, values;
+  for (size_t i = 0; i < numbers.size(); ++i) (i % 2 ? values : wavelengths).push_back(numbers[i]);
+  return color_of_samples(element, wavelengths, values);
 }
 
-// Mitsuba 3's <spectrum type="..."> for what has a plain colour.
-Color parse_spectrum_plugin(const Element& element) {
-  if (element.type != "d65" && element.type != "uniform")
-    fail_at(element, "unknown spectrum; write \"uniform\", \"d65\" or <rgb>");
-  const std::string* scale = element.attribute(element.type == "d65" ? "scale" : "value");
-  return Color::Constant(scale ? static_cast<float>(parse_number(element, *scale)) : 1.0f);
-}
-
-Color parse_spectrum(const Element& element) {
-  if (!element.type.empty()) return parse_spectrum_plugin(element);
+Color parse_spectrum(const Document& document, const Element& element) {
+  if (!element.type.empty()) return parse_spectrum_plugin(document, element);
   if (element.attribute("filename"))
     fail_at(element, "spectra in files are not read; write the wavelength:value pairs here");
   const std::string& text = required_attribute(element, "value");
@@ -65,17 +53,45 @@ Color parse_blackbody(const Element& element) {
   std::string temperature = required_attribute(element, "temperature");
   if (!temperature.empty() && (temperature.back() == 'K' || temperature.back() == 'k'))
     temperature.pop_back();
-  const float kelvin = static_cast<float>(parse_number(element, temperature));
-  if (!(kelvin > 0)) fail_at(element, "its temperature must be above 0 K");
   const std::string* scale = element.attribute("scale");
-  return blackbody_rgb(kelvin, scale ? static_cast<float>(parse_number(element, *scale)) : 1.0f);
+  return color_of_blackbody(element, parse_number(element, temperature),
+                            scale ? parse_number(element, *scale) : 1);
+}
+
+// The old dialect's `intent` tells how a colour becomes a spectrum; colours here stay colours.
+void check_intent(const Element& element) {
+  const std::vector<std::string> known = {"reflectance", "illuminant"};
+  const std::string* intent = element.attribute("intent");
+  if (intent && std::find(known.begin(), known.end(), *intent) == known.end())
+    fail_at(element, "unknown intent \"{}\"{}", *intent, did_you_mean(*intent, known));
 }
 
 }  // namespace
 
-Color parse_color(const Element& element) {
+Color color_of_samples(const Element& element, const std::vector<double>& wavelengths,
+                       const std::vector<double>& values) {
+  if (wavelengths.size() != values.size() || values.size() < 2)
+    fail_at(element, "has {} wavelengths and {} values, it needs two or more pairs",
+            wavelengths.size(), values.size());
+  std::vector<std::pair<float, float>> samples;
+  for (size_t i = 0; i < values.size(); ++i) {
+    samples.emplace_back(static_cast<float>(wavelengths[i]), static_cast<float>(values[i]));
+    if (i > 0 && !(wavelengths[i] > wavelengths[i - 1]))
+      fail_at(element, "its wavelengths must increase, {} follows {}", wavelengths[i],
+              wavelengths[i - 1]);
+  }
+  return spectrum_to_rgb(samples);
+}
+
+Color color_of_blackbody(const Element& element, double kelvin, double scale) {
+  if (!(kelvin > 0)) fail_at(element, "its temperature must be above 0 K");
+  return blackbody_rgb(static_cast<float>(kelvin), static_cast<float>(scale));
+}
+
+Color parse_color(const Document& document, const Element& element) {
+  check_intent(element);
   if (element.tag == "blackbody") return parse_blackbody(element);
-  if (element.tag == "spectrum") return parse_spectrum(element);
+  if (element.tag == "spectrum") return parse_spectrum(document, element);
   const std::string& text = required_attribute(element, "value");
   if (element.tag == "float" || element.tag == "integer")
     return Color::Constant(static_cast<float>(parse_number(element, text)));

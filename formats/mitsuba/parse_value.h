@@ -20,7 +20,15 @@ const std::string& required_attribute(const Element& element, const std::string&
 Eigen::Vector3d parse_vector(const Element& element, const Eigen::Vector3d& otherwise);
 
 // <rgb>, <srgb>, <color>, <spectrum>, <blackbody>, <float>, <integer> in linear sRGB.
-Color parse_color(const Element& element);
+Color parse_color(const Document& document, const Element& element);
+
+// Of a spectrum given by samples: wavelengths in nm that increase, two or more.
+Color color_of_samples(const Element& element, const std::vector<double>& wavelengths,
+                       const std::vector<double>& values);
+Color color_of_blackbody(const Element& element, double kelvin, double scale);
+
+// spectrum_plugins.cpp: the new dialect's <spectrum type="...">.
+Color parse_spectrum_plugin(const Document& document, const Element& element);
 
 // <transform>: the first step is applied first.
 Mat4 parse_transform(const Element& element);

@@ -77,7 +77,7 @@ Color Properties::color(const std::string& name, const Color& otherwise) {
   if (const Element* nested = object(name))
     fail_at(*property, "is a <{}>, which is not supported in {}; give a colour", nested->tag,
             element_.where());
-  return parse_color(*property);
+  return parse_color(document_, *property);
 }
 
 Mat4 Properties::transform(const std::string& name) {

@@ -107,6 +107,60 @@ TEST_F(PropertiesTest, ColorsAreLinear) {
   expect_near(color("<spectrum name=\"c\" type=\"d65\"/>"), {1, 1, 1});
 }
 
+TEST_F(PropertiesTest, SpectraMayBeElementsWithPropertiesOfTheirOwn) {
+  const auto spectrum = [this](const std::string& type, const std::string& body) {
+    return color("<spectrum name=\"c\" type=\"" + type + "\">" + body + "</spectrum>");
+  };
+  const std::string values = R"(<string name="values" value="0, .5, 1"/>)";
+  const Color ramp = color("<spectrum name=\"c\" value=\"400:0, 500:.5, 600:1\"/>");
+  expect_near(spectrum("uniform", R"(<float name="value" value=".25"/>)"), {0.25f, 0.25f, 0.25f});
+  expect_near(spectrum("d65", R"(<float name="scale" value="3"/>)"), {3, 3, 3});
+  expect_near(
+      spectrum("d65", R"(<float name="scale" value="2"/><rgb name="color" value="1 2 3"/>)"),
+      {2, 4, 6});
+  expect_near(
+      spectrum("irregular", R"(<string name="wavelengths" value="400, 500, 600"/>)" + values),
+      ramp);
+  for (const char* name : {"wavelength", "lambda"})
+    expect_near(spectrum("regular", fmt::format(R"(<float name="{0}_min" value="400"/>
+                                        <float name="{0}_max" value="600"/>)",
+                                                name) +
+                                        values),
+                ramp);
+  const Color glow = spectrum("blackbody", R"(<float name="temperature" value="5000"/>)");
+  const Color same = color("<blackbody name=\"c\" temperature=\"5000\"/>");
+  expect_near(Color(glow / same), Color::Ones());
+}
+
+TEST_F(PropertiesTest, WrongSpectraNameWhatIsWrong) {
+  const std::tuple<const char*, const char*, const char*> cases[] = {
+      {"blackbdy", "", "did you mean \"blackbody\"?"},
+      {"rgb_importance", "", "known are blackbody, d65, irregular, regular, uniform"},
+      {"blackbody", "", "needs a <float name=\"temperature\">"},
+      {"blackbody", R"(<float name="temperature" value="0"/>)", "above 0 K"},
+      {"uniform", R"(<float name="valu" value="1"/>)", "did you mean \"value\"?"},
+      {"d65", R"(<texture type="checkerboard"/>)", "has no place in"},
+      {"regular", R"(<string name="values" value="1 1"/>)", "name=\"wavelength_min\""},
+      {"irregular", R"(<string name="wavelengths" value="400 500 600"/>
+                       <string name="values" value="1 1"/>)",
+       "3 wavelengths and 2 values"}};
+  for (const auto& [type, body, says] : cases) {
+    const std::string error = error_of(
+        [&] { color(fmt::format("<spectrum name=\"c\" type=\"{}\">{}</spectrum>", type, body)); });
+    EXPECT_TRUE(mentions(error, says)) << error;
+    EXPECT_TRUE(mentions(error, "scene.xml\":2")) << error;
+  }
+}
+
+TEST_F(PropertiesTest, TheIntentOfAColorIsWithoutEffect) {
+  for (const char* intent : {"reflectance", "illuminant"})
+    expect_near(color(fmt::format("<rgb name=\"c\" value=\".5\" intent=\"{}\"/>", intent)),
+                {0.5f, 0.5f, 0.5f});
+  EXPECT_TRUE(
+      mentions(error_of([&] { color("<rgb name=\"c\" value=\"1\" intent=\"iluminant\"/>"); }),
+               "did you mean \"illuminant\"?"));
+}
+
 TEST_F(PropertiesTest, WrongColorsAreErrors) {
   for (const char* child :
        {"<rgb name=\"c\" value=\"1, 2\"/>", "<rgb name=\"c\" value=\"#12345g\"/>",
