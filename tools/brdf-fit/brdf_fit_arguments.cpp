@@ -25,7 +25,7 @@ void declare(CLI::App& app, BrdfFitArguments& arguments) {
                "Keep as many, also where fewer do nearly as well");
   app.add_option("--samples", options.samples, "BSDF samples per fit")
       ->check(CLI::Range(16, 65536));
-  app.add_option("--seed", options.seed, "Seed of the random numbers");
+  add_seed(app, options.seed);
   as_output(
       app.add_option("--report", arguments.report, "Table over entries to write: errors, times"),
       {".csv"});

@@ -51,7 +51,8 @@ void add_family(CLI::App& app, BrdfFitArguments& arguments) {
   as_input(
       app.add_option("--family-file", arguments.families, "Family to take fits from; repeatable"))
       ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
 }
 
 void brdf_fit(const ToolRun& run, const ToolInfo& tool, const BrdfFitArguments& arguments) {

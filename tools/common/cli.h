@@ -2,6 +2,7 @@
 // What all tools share: option parsing, help, exit codes, threads, progress, interruption.
 // A tool's main declares its options, calls its stage once, and reports.
 
+#include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -64,6 +65,10 @@ int run_tool(int argc, char** argv, const ToolInfo& info,
 CLI::Option* as_input(CLI::Option* option);
 // An output's name must end in one of `endings`, if there are any.
 CLI::Option* as_output(CLI::Option* option, const std::vector<std::string>& endings = {});
+
+// --seed. A negative one is refused, where CLI11 would take a large one for it.
+CLI::Option* add_seed(CLI::App& app, uint64_t& seed,
+                      const std::string& description = "Seed of the random numbers");
 
 // An option that takes one of some words; `choose` is given its place. The first is the default.
 CLI::Option* add_choice(CLI::App& app, const std::string& name,

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <numeric>
 #include <utility>
@@ -117,6 +118,16 @@ CLI::Option* as_output(CLI::Option* option, const std::vector<std::string>& endi
     for (const std::string& ending : endings)
       if (file.ends_with(ending)) return std::string();
     return fmt::format("\"{}\" does not end in {}", file, fmt::join(endings, " or "));
+  });
+}
+
+CLI::Option* add_seed(CLI::App& app, uint64_t& seed, const std::string& description) {
+  return app.add_option("--seed", seed, description)->check([](const std::string& text) {
+    uint64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error == std::errc() && stop == end) return std::string();
+    return fmt::format("\"{}\" is no whole number from 0 to 2^64 - 1", text);
   });
 }
 

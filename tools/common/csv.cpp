@@ -113,12 +113,17 @@ int column_of(const CsvTable& table, const std::string& column, const std::strin
   return index;
 }
 
-double number_in(const std::string& cell, const std::string& what) {
+std::optional<double> finite_number(const std::string& cell) {
   double value = 0;
   const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error != std::errc() || stop != cell.data() + cell.size() || !std::isfinite(value))
-    fail("{} is \"{}\", not a number", what, cell);
+  if (error != std::errc() || stop != cell.data() + cell.size() || !std::isfinite(value)) return {};
   return value;
+}
+
+double number_in(const std::string& cell, const std::string& what) {
+  const std::optional<double> value = finite_number(cell);
+  if (!value) fail("{} is \"{}\", not a number", what, cell);
+  return *value;
 }
 
 std::string csv_line(const std::vector<std::string>& cells) {

@@ -1,6 +1,7 @@
 #pragma once
 // Tables of comma-separated values with a header row [RFC 4180].
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +21,9 @@ CsvTable read_csv(const std::string& path);
 // The index of a column that has to be there; throws Error naming path and columns.
 int column_of(const CsvTable& table, const std::string& column, const std::string& path);
 
-// The cell as a finite number; throws Error that begins with `what`.
+// The cell as a finite number, where it is one.
+std::optional<double> finite_number(const std::string& cell);
+// The same; throws Error that begins with `what`.
 double number_in(const std::string& cell, const std::string& what);
 
 // The cells as one line of a table, its newline included.

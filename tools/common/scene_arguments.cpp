@@ -13,6 +13,7 @@ void add_import_options(CLI::App& app, SceneArguments& arguments) {
       ->type_name("NAME=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
       ->group("Scene");
   app.add_flag("--lenient", arguments.lenient,
                "Replace unknown materials by grey and leave unknown shapes out, with a warning")

@@ -59,6 +59,11 @@ double preprocess_seconds(const std::vector<std::string>& paths) {
   return sum;
 }
 
+// Columns of words; chart takes numbers from all others.
+bool is_text(const std::string& label) {
+  return label == "scene" || label == "method" || label == "seed";
+}
+
 }  // namespace
 
 ImageLabels collect_labels(const ImageCompareOptions& options) {
@@ -74,6 +79,8 @@ ImageLabels collect_labels(const ImageCompareOptions& options) {
     require(equals != std::string::npos && labels.count(name),
             "--label \"{}\" is not one of {}=", label, fmt::join(kImageLabels, "=, "));
     labels[name] = label.substr(equals + 1);
+    require(is_text(name) || labels[name].empty() || finite_number(labels[name]),
+            "--label \"{}\": chart needs a number there", label);
   }
   if (!labels["seconds"].empty() && !labels["spp"].empty())
     labels["sample_ms"] = fmt::format(

@@ -35,7 +35,7 @@ void declare(CLI::App& app, MakeCloudArguments& arguments) {
   app.add_option("--coverage", options.coverage, "From a wisp, 0, to all of the box, 1");
   app.add_option("--billows", options.billows, "Depth of the creases between billows, 0 to 1");
   app.add_option("--edge", options.edge, "Width of the rim where density rises");
-  app.add_option("--seed", options.seed, "Of the shape");
+  add_seed(app, options.seed, "Of the shape");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ void declare(CLI::App& app, PhotonTraceArguments& arguments) {
       ->check(CLI::Range(0ull, 4000000000ull));
   as_input(app.add_option("--cache", arguments.cache,
                           "Cache of the pass before that guides the camera paths"));
-  app.add_option("--seed", options.seed, "Seed of the random numbers");
+  add_seed(app, options.seed);
   app.add_option("--pass", options.pass,
                  "Number of the pass: other random numbers of the same seed");
   app.add_option("--max-depth", options.max_depth, "Most scattering events of one particle or path")

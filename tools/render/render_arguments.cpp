@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "libguide/base/error.h"
 #include "tools/common/position.h"
@@ -136,19 +138,26 @@ void add_media(CLI::App& app, RenderOptions& options) {
       "incident light; auto: product in all modes but bsdf");
 }
 
+std::string above_zero(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const bool good = end == text.c_str() + text.size() && value > 0 && std::isfinite(value);
+  return good ? "" : fmt::format("must be a number above 0, not {}", text);
+}
+
 void add_stopping(CLI::App& app, RenderOptions& options) {
   app.add_option("--spp", options.spp, "Samples per pixel")
       ->check(CLI::Range(1, 1 << 24))
       ->default_str("");
   app.add_option("--time", options.time, "Seconds of rendering")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero)
       ->default_str("");
   add_choice(
       app, "--clock", {"wall", "cpu"}, [&options](size_t i) { options.cpu_clock = i == 1; },
       "What seconds of rendering are; cpu: processor seconds over threads, for comparing methods "
       "on a machine that has other work");
   app.add_option("--error", options.error, "Estimated relMSE to reach")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero)
       ->default_str("");
   app.add_option("--checkpoints", options.checkpoints,
                  "Seconds, separated by commas, at which the image so far and its --png and "
@@ -212,7 +221,7 @@ void declare(CLI::App& app, RenderArguments& arguments) {
   add_stopping(app, options);
   add_frame(app, arguments);
   add_views(app, arguments);
-  app.add_option("--seed", options.seed, "Seed of the random numbers");
+  add_seed(app, options.seed);
   add_sharing(app, arguments);
 }
 
