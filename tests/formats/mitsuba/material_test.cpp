@@ -148,7 +148,8 @@ TEST(MitsubaMaterials, OneElementIsImportedOnceHoweverOftenItIsReferredTo) {
 }
 
 TEST(MitsubaMaterials, UnknownTypesNameFileLineAndTheNearestKnownName) {
-  const std::string error = Content(Dialect::old).error_of("\n" + with_type("rougconductor"));
+  const std::string error =
+      Content(Dialect::old).error_of(fmt::format("\n{}", with_type("rougconductor")));
   EXPECT_NE(error.find("scene.xml\":3: <bsdf type=\"rougconductor\">"), std::string::npos) << error;
   EXPECT_NE(error.find("did you mean \"roughconductor\"?"), std::string::npos) << error;
   EXPECT_NE(Content(Dialect::old).error_of(with_type("difftrans")), "no error");

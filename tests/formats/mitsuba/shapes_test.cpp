@@ -143,7 +143,7 @@ TEST_F(ShapesTest, NormalsGoByTheInverseTranspose) {
 }
 
 TEST_F(ShapesTest, MissingMeshNamesWhoRefersToIt) {
-  const std::string error = import_error("\n" + file_shape("obj", "lost.obj"));
+  const std::string error = import_error(fmt::format("\n{}", file_shape("obj", "lost.obj")));
   EXPECT_TRUE(mentions(error, "scene.xml\":3: <shape type=\"obj\">")) << error;
   EXPECT_TRUE(mentions(error, "lost.obj")) << error;
   EXPECT_TRUE(mentions(import_error("<shape type=\"obj\"/>"), "filename"));
