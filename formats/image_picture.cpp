@@ -36,7 +36,9 @@ struct Source {
   int wanted() const { return channels == 2 || channels == 4 ? 4 : 3; }
   size_t values() const { return static_cast<size_t>(width) * height * wanted(); }
   // PNG and JPEG say where they end.
-  bool has_end() const { return size > 1 && (data[0] == 0x89 || (data[0] == 0xff && data[1] == 0xd8)); }
+  bool has_end() const {
+    return size > 1 && (data[0] == 0x89 || (data[0] == 0xff && data[1] == 0xd8));
+  }
 };
 
 // The bytes of a picture and after them a value again and again, as much as any picture of its size

@@ -12,7 +12,7 @@ namespace waylight {
 
 struct ImportOptions {
   std::map<std::string, std::string> defines;  // -D name=value
-  bool lenient = false;  // unknown materials become grey diffuse, unknown shapes nothing
+  bool lenient = false;    // unknown materials become grey diffuse, unknown shapes nothing
   bool two_sided = false;  // opaque materials of one side that shapes use get two
   std::function<void(const std::string&)> on_warning;
   std::function<void(const std::string&)> on_file;  // of each file that the scene refers to

@@ -49,7 +49,7 @@ class PhotonReader {
   // finite or whose power is negative.
   bool read(std::vector<Photon>* photons, std::vector<Escape>* escapes = nullptr,
             std::vector<MediumPhoton>* in_media = nullptr);
-  double share() const;  // of the file that was read; 0 for a pipe
+  double share() const;                // of the file that was read; 0 for a pipe
   const PhotonCounts& counts() const;  // after read() said false
   uint64_t content_hash() const;       // of all bytes of the stream, after read() said false
 

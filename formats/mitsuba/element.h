@@ -36,7 +36,7 @@ struct Document {
   std::string path;
   std::vector<std::string> search_folders;  // of <path> elements
   std::unordered_map<std::string, const Element*> ids;
-  std::vector<std::string> unused_defines;  // -D names that no $name asked for
+  std::vector<std::string> unused_defines;          // -D names that no $name asked for
   std::function<void(const std::string&)> on_file;  // may be empty; of each that is found
 
   // `relative` as named by an element: beside that element's file, then the main file, then the

@@ -15,9 +15,9 @@ struct CellMergeOptions {
   double photons_per_particle = 0;
 };
 
-// One cell in place of two siblings, or nothing where that would lose more than merge_rules.h allows,
-// nor where it would reach places that the cell there before did not: its reach lies, on either side
-// of the split, within that of the one there.
+// One cell in place of two siblings, or nothing where that would lose more than merge_rules.h
+// allows, nor where it would reach places that the cell there before did not: its reach lies, on
+// either side of the split, within that of the one there.
 std::optional<TrainingCell> merge_if_alike(const TrainingCell& lower, const TrainingCell& upper,
                                            const CellSplit& split, const CellMergeOptions& options);
 

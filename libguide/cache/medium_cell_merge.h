@@ -7,8 +7,8 @@
 
 namespace waylight {
 
-// One cell in place of two siblings, or nothing where that would lose more than merge_rules.h allows
-// in the fluence or the lobes of either kind of light. now: photons of the whole training.
+// One cell in place of two siblings, or nothing where that would lose more than merge_rules.h
+// allows in the fluence or the lobes of either kind of light. now: photons of the whole training.
 std::optional<MediumTrainingCell> merge_if_alike(const MediumTrainingCell& lower,
                                                  const MediumTrainingCell& upper,
                                                  const MediumCellOptions& options, double now);

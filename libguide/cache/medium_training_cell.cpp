@@ -91,8 +91,7 @@ void MediumTrainingCell::inherit_fluence(MediumTrainingCell& child, double now,
 // sum of the two.
 void MediumTrainingCell::unite(const MediumTrainingCell& sibling,
                                std::span<const VmfComponent> indirect,
-                               std::span<const VmfComponent> direct, double now,
-                               float min_extent) {
+                               std::span<const VmfComponent> direct, double now, float min_extent) {
   const double exposures = exposure(now, min_extent) + sibling.exposure(now, min_extent);
   const double volumes = volume(min_extent) + sibling.volume(min_extent);
   const MediumTraining& other = sibling.training_;

@@ -24,8 +24,8 @@ class MediumTree : public CellTree<MediumTrainingCell> {
   void split_full_cells(const MediumTreeOptions& tree, const MediumCellOptions& options,
                         double now);
 
-  // Puts one cell in place of two siblings wherever they know of the same light. now: photons of the
-  // whole training.
+  // Puts one cell in place of two siblings wherever they know of the same light. now: photons of
+  // the whole training.
   void merge_alike(const MediumCellOptions& options, double now);
 
   // Kinds of light without lobes inherit those of a relative nearby.

@@ -59,7 +59,8 @@ uint64_t parts_of_both(const Bounds& lower, uint64_t lower_parts, const Bounds& 
   uint64_t parts = 0;
   for (int part = 0; part < 64; ++part) {
     const Vec3 index(part & 3, part >> 2 & 3, part >> 4);
-    const Vec3 centre = both.min + (both.max - both.min).cwiseProduct((index.array() + 0.5f).matrix() / 4);
+    const Vec3 centre =
+        both.min + (both.max - both.min).cwiseProduct((index.array() + 0.5f).matrix() / 4);
     const bool is_lower = (centre.array() <= lower.max.array()).all();
     if (part_of_box(is_lower ? lower : upper, centre) & (is_lower ? lower_parts : upper_parts))
       parts |= uint64_t{1} << part;

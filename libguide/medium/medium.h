@@ -23,7 +23,7 @@ struct VolumeGrid {
   bool values_on_sides = false;
 
   const Eigen::Vector3i& size() const { return voxels.size(); }
-  // What of the outer voxels lies beyond the sides, in voxels; nothing along an axis with one value.
+  // What of the outer voxels lies beyond the sides, in voxels; 0 along an axis with one value.
   Vec3 margin() const {
     if (!values_on_sides) return Vec3::Zero();
     return (size().array() > 1).select(Vec3::Constant(0.5f), Vec3::Zero());

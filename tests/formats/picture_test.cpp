@@ -42,7 +42,8 @@ std::string hdr(bool runs) {
 class PictureTest : public testing::TemporaryFiles {
  protected:
   // Where the pixels begin, all that is cut from there on is an error that names the file.
-  void expect_refused_where_cut(const std::string& ending, const std::string& bytes, size_t header) {
+  void expect_refused_where_cut(const std::string& ending, const std::string& bytes,
+                                size_t header) {
     const std::string path = put("picture" + ending, bytes);
     const Image whole = read_image(path);
     EXPECT_EQ(whole.width, kSize);

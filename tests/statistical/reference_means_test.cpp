@@ -121,7 +121,8 @@ TEST_P(SlowReferenceMeans, AgreeWithinTheNoise) {
 //                 that is a mirror in the file and black in the reference; panels and ceiling by
 //                 the windows at 0.82 to 0.92: rough plastics with the transmittance of smooth ones
 // The kitchen's paths end where those of its reference do; the file says 32 edges.
-//   veach-ajar    the glass teapot at 1.15, left wall and floor at 0.94 to 1.07, unexplained
+//   veach-ajar    the glass teapot at 1.15, which absorbs in the reference; left wall and floor at
+//                 0.94 to 1.07, where the reference has correlated noise
 constexpr Case kCases[] = {
     {"cornell-box/scene.xml", "cornell-box/TungstenRender.exr", 64, 64, 256, 0, {}, 0.005},
     {"veach-ajar/scene_complete.xml",

@@ -42,9 +42,9 @@ void declare(CLI::App& app, CacheInfoArguments& arguments) {
   as_input(app.add_option("--samples", arguments.plot.samples,
                           "Photon file whose photons are drawn beside the cell's mixture"));
   add_choice(
-      app, "--direct", {"drop", "keep"},
-      [&arguments](size_t i) { arguments.plot.direct = i == 1; },
-      "Of --samples: photons straight from an emitter, which cache-train drops unless told to keep");
+      app, "--direct", {"drop", "keep"}, [&arguments](size_t i) { arguments.plot.direct = i == 1; },
+      "Of --samples: photons straight from an emitter, which cache-train drops unless told to "
+      "keep");
   as_input(app.add_option("--truth", arguments.plot.truth,
                           "Picture of render --sphere=X,Y,Z that is drawn beside all light there"));
   app.add_option("--elevation", arguments.plot.elevation,

@@ -44,10 +44,9 @@ void declare(CLI::App& app, CacheTrainArguments& arguments) {
   app.add_option("--normal-spread", options.normal_spread,
                  "A cell whose mean normal is shorter than this is split by orientation")
       ->check(CLI::Range(0.0, 1.0));
-  app.add_flag(
-      "--auto", options.merge_alike,
-      "As many cells as the light needs: siblings become one where their photons "
-      "cannot tell their light apart");
+  app.add_flag("--auto", options.merge_alike,
+               "As many cells as the light needs: siblings become one where their photons "
+               "cannot tell their light apart");
   add_choice(
       app, "--direct", {"drop", "keep"},
       [&options](size_t i) { options.direct = i == 0 ? DirectLight::drop : DirectLight::keep; },

@@ -118,9 +118,8 @@ TEST(MitsubaMedia, ValuesOfVolFilesStandOnTheSidesOfTheBoxInTheOldDialectOnly) {
     Content content(dialect);
     write_grid(content.file("a.vol"));
     const auto m = content.medium<HeterogeneousMedium>(
-        medium("heterogeneous",
-               fmt::format("<volume name=\"{}\" type=\"gridvolume\">", name) + kGrid +
-                   "</volume>" + kAlbedo));
+        medium("heterogeneous", fmt::format("<volume name=\"{}\" type=\"gridvolume\">", name) +
+                                    kGrid + "</volume>" + kAlbedo));
     return std::get<std::shared_ptr<const VolumeGrid>>(m.density)->values_on_sides;
   };
   EXPECT_TRUE(on_sides(Dialect::old, "density"));

@@ -49,8 +49,9 @@ TEST_F(SensorTest, FocalLengthRefersToTheDiagonalOf35mmFilm) {
 }
 
 TEST_F(SensorTest, FieldOfViewKeepsItsAxisInAFilmOfAnotherShape) {
-  SensorDescription s = sensor("<float name=\"fov\" value=\"60\"/>"
-                               "<string name=\"fov_axis\" value=\"y\"/>");
+  SensorDescription s = sensor(
+      "<float name=\"fov\" value=\"60\"/>"
+      "<string name=\"fov_axis\" value=\"y\"/>");
   s.film.width = 200, s.film.height = 100;
   EXPECT_NEAR(degrees_x(s), 98.2132f, 1e-3);
 }

@@ -30,8 +30,8 @@ TEST(MixtureDivergence, IsThatOfTwoGaussians) {
 TEST(MixtureDivergence, IsThatOfTwoLobesOnTheSphere) {
   const VmfComponent a = {1, Vec3::UnitZ(), 20};
   const VmfComponent b = {1, Vec3(0.6f, 0, 0.8f), 5};
-  const double exact = std::log(vmf_norm(20) / vmf_norm(5)) - (20 - 5) +
-                       mean_cosine(20.0) * (20 - 5 * 0.8);
+  const double exact =
+      std::log(vmf_norm(20) / vmf_norm(5)) - (20 - 5) + mean_cosine(20.0) * (20 - 5 * 0.8);
   EXPECT_NEAR(divergence(VmfMixture(std::span(&a, 1)), VmfMixture(std::span(&b, 1))), exact,
               0.05 * exact);
   EXPECT_EQ(divergence(VmfMixture(std::span(&a, 1)), VmfMixture(std::span(&a, 1))), 0);
