@@ -89,20 +89,38 @@ class ObjBuilder {
   bool has_normals_ = false, has_uvs_ = false;
 };
 
-// The next word of a line, which is taken off it; empty at its end and from a comment on.
+// The next word of a line, which is taken off it; empty at its end.
 std::string_view next_word(std::string_view& line) {
   constexpr std::string_view kBlank = " \t\r";
   line.remove_prefix(std::min(line.find_first_not_of(kBlank), line.size()));
   const std::string_view word = line.substr(0, line.find_first_of(kBlank));
   line.remove_prefix(word.size());
-  return word.starts_with('#') ? std::string_view() : word;
+  return word;
 }
 
-bool is_finite_number(std::string_view word) {
+template <typename Number>
+bool parses(std::string_view word, Number& value) {
   if (word.starts_with('+')) word.remove_prefix(1);
-  double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+// Exporters write normals of faces without area as NaN, which are repaired as those of length 0.
+bool is_number(std::string_view word, bool of_normal) {
+  double value = 0;
+  return parses(word, value) && (std::isfinite(value) || (of_normal && std::isnan(value)));
+}
+
+// "7", "7/2", "7//3", "7/2/3" or with negative numbers.
+bool is_corner(std::string_view word) {
+  for (int part = 0; part < 3; ++part) {
+    const std::string_view number = word.substr(0, word.find('/'));
+    int value = 0;
+    if (!parses(number, value) && !(part == 1 && number.empty())) return false;
+    if (number.size() == word.size()) return true;
+    word.remove_prefix(number.size() + 1);
+  }
+  return false;
 }
 
 // The numbers that tinyobjloader reads of a line; it takes what is none for 0.
@@ -111,15 +129,30 @@ int numbers_of(std::string_view statement) {
   return statement == "vt" ? 1 : 0;
 }
 
-void check_numbers(const std::string& path, std::string_view text) {
+void check_line(const std::string& path, size_t number, std::string_view line) {
+  const std::string_view statement = next_word(line);
+  for (int i = numbers_of(statement); i > 0; --i)
+    if (const std::string_view word = next_word(line); !is_number(word, statement == "vn"))
+      fail("\"{}\":{}: {} has \"{}\" where a finite number is needed", path, number, statement,
+           word);
+  if (statement != "f") return;
+  for (std::string_view word; !(word = next_word(line)).empty();)
+    if (!is_corner(word))
+      fail("\"{}\":{}: f has \"{}\" where the numbers of a corner are needed", path, number, word);
+}
+
+// Without a byte order mark and comments, which tinyobjloader takes for corners of faces.
+void blank_comments(std::string& text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.replace(0, 3, "   ");
+  for (size_t at = 0; (at = text.find('#', at)) != text.npos;)
+    for (; at < text.size() && text[at] != '\n'; ++at) text[at] = ' ';
+}
+
+void check_lines(const std::string& path, std::string_view text) {
   for (size_t number = 1; !text.empty(); ++number) {
-    std::string_view line = text.substr(0, text.find('\n'));
+    const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
-    const std::string_view statement = next_word(line);
-    for (int i = numbers_of(statement); i > 0; --i)
-      if (const std::string_view word = next_word(line); !is_finite_number(word))
-        fail("\"{}\":{}: {} has \"{}\" where a finite number is needed", path, number, statement,
-             word);
+    check_line(path, number, line);
   }
 }
 
@@ -128,8 +161,10 @@ ObjBuilder& builder(void* user_data) { return *static_cast<ObjBuilder*>(user_dat
 }  // namespace
 
 TriangleMesh read_obj(const std::string& path, MeshRepairs* repairs) {
-  std::istringstream text(read_whole_file(path));
-  check_numbers(path, text.view());
+  std::string bytes = read_whole_file(path);
+  blank_comments(bytes);
+  check_lines(path, bytes);
+  std::istringstream text(std::move(bytes));
   tinyobj::callback_t callbacks;
   callbacks.vertex_cb = [](void* data, float x, float y, float z, float) {
     builder(data).add_position({x, y, z});

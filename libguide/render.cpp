@@ -120,6 +120,7 @@ class Renderer {
 
  private:
   static constexpr int kMaxPass = 16;
+  static constexpr int kMinSamplesOfError = 16;  // fewer say little of light that is hard to find
   static constexpr double kTimeOfPilot = 20;
   static constexpr int kPathsOfPilot = 16;
 
@@ -153,7 +154,9 @@ class Renderer {
     if (checkpoint_ < options_.checkpoints.size())
       count = std::min(count, std::max(1, passes_until(options_.checkpoints[checkpoint_])));
     if (options_.time > 0) count = std::min(count, passes_until(options_.time));
-    if (options_.error > 0 && done_ >= 4 && film_.estimated_relmse() <= options_.error) count = 0;
+    if (options_.error > 0 && done_ >= kMinSamplesOfError &&
+        film_.estimated_relmse() <= options_.error)
+      count = 0;
     return count;
   }
 

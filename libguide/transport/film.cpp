@@ -1,5 +1,6 @@
 #include "libguide/transport/film.h"
 
+#include <cmath>
 #include <functional>
 
 namespace waylight {
@@ -94,12 +95,35 @@ Image Film::develop(const AovSet& aovs) const {
 }
 
 double Film::estimated_relmse() const {
+  constexpr int kBlock = 8;
   double sum = 0;
-  for (const PixelSums& pixel : pixels_) {
-    const Eigen::Array3d mean = pixel.mean();
-    sum += (pixel.variance_of_mean() / (mean * mean + 0.01)).mean();
-  }
+  for (int y = 0; y < height_; y += kBlock)
+    for (int x = 0; x < width_; x += kBlock)
+      sum += block_error(x, y, std::min(x + kBlock, width_), std::min(y + kBlock, height_));
   return sum / static_cast<double>(pixels_.size());
+}
+
+// Over its pixels. Where few samples find the light, most pixels have neither mean nor variance,
+// and those that were hit have both, and the variance of their mean is its square: what a pixel has
+// above the mean of the block and within two standard deviations of it is taken for chance.
+double Film::block_error(int x0, int y0, int x1, int y1) const {
+  constexpr double kFloor = 0.01, kChance = 2;
+  const auto sum_over = [&](const auto& of_pixel) {
+    Eigen::Array3d sum = Eigen::Array3d::Zero();
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) sum += of_pixel(pixels_[size_t(y) * width_ + x]);
+    return sum;
+  };
+  const Eigen::Array3d mean =
+      sum_over([](const PixelSums& p) { return p.mean(); }) / ((x1 - x0) * (y1 - y0));
+  const auto error = [&](const PixelSums& p) -> Eigen::Array3d {
+    if (p.samples < 2) return Eigen::Array3d::Constant(std::nan(""));
+    const Eigen::Array3d own = p.mean(), variance = p.variance_of_mean(), above = own - mean;
+    const Eigen::Array3d likely =
+        (above > 0 && above < kChance * variance.sqrt()).select(mean, own);
+    return variance / (likely * likely + kFloor);
+  };
+  return sum_over(error).mean();
 }
 
 FilmTotals Film::totals() const {

@@ -45,10 +45,14 @@ class Film {
 
   Image develop(const AovSet& aovs) const;
   FilmTotals totals() const;
-  // relMSE estimated from the variance of each pixel's mean: mean of var / (mean^2 + 0.01).
+  // relMSE estimated from the variance of each pixel's mean: var / (mean^2 + 0.01), with the mean of
+  // its block of 8 x 8 where the pixel is above that by chance. NaN below two samples. Light that no
+  // sample found yet it cannot know.
   double estimated_relmse() const;
 
  private:
+  double block_error(int x0, int y0, int x1, int y1) const;
+
   int width_, height_;
   std::vector<PixelSums> pixels_;
 };

@@ -200,10 +200,12 @@ void ToolRun::write_stats(const nlohmann::ordered_json& stats, const std::string
   if (!stats_path_.empty()) write_text_atomically(tagged(stats_path_, tag), stats.dump(2) + "\n");
 }
 
-void ToolRun::check_referred(const std::string& file) const {
-  for (const std::string& output : outputs_)
-    require(!same_file(output, file),
-            "the output \"{}\" is a file that the scene refers to: name another file", output);
+void ToolRun::check_referred(const std::string& file,
+                             const std::vector<std::string>& written) const {
+  for (const std::vector<std::string>* outputs : {&outputs_, &written})
+    for (const std::string& output : *outputs)
+      require(!same_file(output, file), "the output \"{}\" is also read: name another file",
+              output);
 }
 
 void ToolRun::stop_if_interrupted() const {

@@ -43,8 +43,9 @@ class ToolRun {
   void print(const std::string& line) const;
   // Writes the file of --stats, if asked for; with a tag, its file tagged(..., tag).
   void write_stats(const nlohmann::ordered_json& stats, const std::string& tag = {}) const;
-  // Throws Misuse where an output would overwrite a file that an input refers to.
-  void check_referred(const std::string& file) const;
+  // Throws Misuse where an output, or another file that is written, would overwrite a file that is
+  // read without being an option's input.
+  void check_referred(const std::string& file, const std::vector<std::string>& written = {}) const;
   // For stages whose partial result is of no use.
   void stop_if_interrupted() const;
 

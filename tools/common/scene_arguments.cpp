@@ -57,7 +57,7 @@ SceneDescription load_scene(const SceneArguments& arguments, const ToolRun& run)
   options.lenient = arguments.lenient;
   options.two_sided = arguments.two_sided;
   options.on_warning = run.control.on_warning;
-  options.on_file = [&run](const std::string& file) { run.check_referred(file); };
+  options.on_file = [&](const std::string& file) { run.check_referred(file, arguments.written); };
   return import_mitsuba(arguments.path, options);
 }
 

@@ -16,6 +16,7 @@ struct SceneArguments {
   bool lenient = false;
   bool two_sided = false;
   bool ignore_media = false;
+  std::vector<std::string> written;  // files that the tool writes besides its options' outputs
 };
 
 // SCENE, -D name=value (repeatable), --lenient, --two-sided.

@@ -152,6 +152,8 @@ void image_compare(const ToolRun& run, const ImageCompareOptions& options) {
   const ImageLabels labels = collect_labels(options);
   const Image image = read_image(options.image), reference = read_image(options.reference);
   const Framing frame(options, image.width, image.height);
+  for (const std::string& variance : options.variances)
+    if (variance != "self") run.check_referred(variance);
   const std::vector<Bitmap> renders = read_renders(options, image, frame, "", PixelQuantity::mean);
   const Bitmap x = mean_picture(renders);
   const Bitmap ref =

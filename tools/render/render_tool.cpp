@@ -75,13 +75,18 @@ std::map<std::string, std::string> exr_attributes(const Provenance& p) {
   return attributes;
 }
 
+std::string checkpoint_tag(double seconds) { return fmt::format("{:g}s", seconds); }
+
 void report(const ToolRun& run, const RenderSummary& s) {
   run.print(fmt::format("{} x {} pixels, {:.1f} samples per pixel in {:.1f} s, {} rays/s", s.width,
                         s.height, s.mean_spp, s.seconds,
                         format_count(double(s.rays) / std::max(s.seconds, 1e-9))));
+  const std::string error = std::isnan(s.estimated_relmse)
+                                ? "unknown below two samples"
+                                : fmt::format("{:.4g}", s.estimated_relmse);
   run.print(
-      fmt::format("estimated relMSE {:.4g}; {:.2f} edges per path; {:.0f} % of scatterings guided",
-                  s.estimated_relmse, s.mean_path_length, 100 * s.guiding_share));
+      fmt::format("estimated relMSE {}; {:.2f} edges per path; {:.0f} % of scatterings guided",
+                  error, s.mean_path_length, 100 * s.guiding_share));
 }
 
 // Variance times cost of each way over that of everything guided.
@@ -139,7 +144,12 @@ void write_stats(const ToolRun& run, const Provenance& provenance, const RenderO
 void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arguments) {
   const RenderOptions options = complete_options(arguments);
   if (!arguments.segments.empty()) check_writable(arguments.segments);
-  SceneDescription description = load_scene(arguments.scene, run);
+  SceneArguments scene_arguments = arguments.scene;
+  for (const double checkpoint : options.checkpoints)
+    for (const std::string& output : {arguments.output, arguments.png})
+      if (!output.empty())
+        scene_arguments.written.push_back(tagged(output, checkpoint_tag(checkpoint)));
+  SceneDescription description = load_scene(scene_arguments, run);
   const LoadedCaches loaded(arguments, options, description);
   Provenance provenance = provenance_of(run, tool, options.seed, arguments.scene, description.hash);
   provenance.parents = loaded.parents;
@@ -158,7 +168,7 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
   const Image image =
       render(*scene, loaded.caches(), options, &summary, run.control,
              [&](double checkpoint, const Image& so_far, const RenderSummary& figures) {
-               const std::string tag = fmt::format("{:g}s", checkpoint);
+               const std::string tag = checkpoint_tag(checkpoint);
                write_images(so_far, tag);
                write_stats(run, provenance, options, figures, tag);
              });

@@ -30,7 +30,8 @@ std::optional<double> reference_error(const std::string& path, const Image& refe
   const std::string stats = std::filesystem::path(path).replace_extension(".json");
   if (std::filesystem::exists(stats)) {
     const auto json = nlohmann::json::parse(read_whole_file(stats), nullptr, false);
-    if (json.is_object() && json.contains("estimated_relmse"))
+    if (json.is_object() && json.contains("estimated_relmse") &&
+        json["estimated_relmse"].is_number())
       return json["estimated_relmse"].get<double>();
   }
   if (!has_color(reference, "variance.")) return std::nullopt;

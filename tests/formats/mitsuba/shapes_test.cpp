@@ -250,5 +250,25 @@ TEST_F(ShapesTest, WhatCannotBeInstancedIsAnError) {
                        "cannot contain"));
 }
 
+TEST_F(ShapesTest, ObjNumbersAreReadAsOthersWriteThem) {
+  put("odd.obj",
+      "\xef\xbb\xbf"
+      "v +0 0 0 # first\r\nv 1e0 .0 0 0.5 0.5 0.5\nv\t0 1. 0\nvn nan nan nan\nvn 0 0 1\n"
+      "f 1//1 2//2 -1//2 # a face\n");
+  const TriangleMesh odd = mesh(file_shape("obj", "odd.obj"));
+  EXPECT_EQ(odd.positions.size(), 3u);
+  EXPECT_EQ(odd.positions[1], Vec3(1, 0, 0));
+  EXPECT_TRUE(odd.normals[0].allFinite());
+}
+
+TEST_F(ShapesTest, ObjWordsThatAreNoNumbersAreRefusedWithTheirLine) {
+  for (const char* line : {"v 1 xx 0", "v 1 1 inf", "v 1 1", "vt nan", "vn 0 1 z", "f 1 2 x",
+                           "f 1.5 2 3", "f 1a 2 3", "f 1 2 4294967297"}) {
+    put("bad.obj", fmt::format("v 0 0 0\nv 1 0 0\nv 0 1 0\n{}\nf 1 2 3\n", line));
+    const std::string error = import_error(file_shape("obj", "bad.obj"));
+    EXPECT_TRUE(mentions(error, "bad.obj\":4:")) << line << ": " << error;
+  }
+}
+
 }  // namespace
 }  // namespace waylight
