@@ -1,8 +1,11 @@
 // The only translation unit that sees OpenVDB, but for a test: its headers cost 12 s and 0.9 GB to
 // compile.
 
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
+
+#include <sstream>
 
 #include "formats/atomic_file.h"
 #include "formats/content_hash.h"
@@ -13,14 +16,24 @@
 namespace waylight {
 namespace {
 
-std::string choose_grid(openvdb::io::File& file, const std::string& path,
-                        const std::string& gridname) {
-  std::vector<std::string> names;
-  for (auto name = file.beginName(); name != file.endName(); ++name) names.push_back(*name);
-  if (names.empty()) fail("\"{}\": there is no grid in it", path);
-  if (gridname.empty() && names.size() == 1) return names[0];
+// OpenVDB does not look whether the file ends before its grids do, and would leave what it missed
+// as it was: the stream throws then.
+openvdb::GridPtrVecPtr read_grids(const std::string& path) {
+  std::istringstream bytes(read_whole_file(path));
+  bytes.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+  return openvdb::io::Stream(bytes, /*delayLoad=*/false).getGrids();
+}
+
+const openvdb::GridBase& choose_grid(const openvdb::GridPtrVec& grids, const std::string& path,
+                                     const std::string& gridname) {
+  if (grids.empty()) fail("\"{}\": there is no grid in it", path);
+  if (gridname.empty() && grids.size() == 1) return *grids[0];
   const std::string wanted = gridname.empty() ? "density" : gridname;
-  if (std::find(names.begin(), names.end(), wanted) != names.end()) return wanted;
+  std::vector<std::string> names;
+  for (const openvdb::GridBase::Ptr& grid : grids) {
+    names.push_back(grid->getName());
+    if (names.back() == wanted) return *grid;
+  }
   fail("\"{}\": there is no grid \"{}\"; it holds: {}", path, wanted, fmt::join(names, ", "));
 }
 
@@ -165,14 +178,14 @@ void replace_uuid(std::string& bytes) {
 }  // namespace
 
 VolumeGrid read_vdb(const std::string& path, const std::string& gridname) {
-  ByteReader(read_whole_file(path), path).take(1);  // says why when it cannot be opened
   try {
     openvdb::initialize();
-    openvdb::io::File file(path);
-    file.open(/*delayLoad=*/false);
-    return to_volume(*file.readGrid(choose_grid(file, path, gridname)), path);
+    const openvdb::GridPtrVecPtr grids = read_grids(path);
+    return to_volume(choose_grid(*grids, path, gridname), path);
   } catch (const Error&) {
     throw;
+  } catch (const std::ios::failure&) {
+    fail("\"{}\": is truncated, or no OpenVDB file", path);
   } catch (const std::exception& e) {
     fail("\"{}\": cannot be read as OpenVDB: {}", path, e.what());
   }

@@ -42,6 +42,15 @@ TEST_F(Volumes, AVdbGridComesBackCroppedToWhatItHolds) {
   EXPECT_TRUE(center_of(read, {0, 0, 1}).isApprox(center_of(grid, {3, 2, 5}), 1e-5f));
 }
 
+TEST_F(Volumes, AVdbFileCutAnywhereIsRefused) {
+  write_vdb(path("whole.vdb"), two_voxels(), "density");
+  const std::string bytes = read_whole_file(path("whole.vdb"));
+  for (size_t length = 0; length < bytes.size(); ++length) {
+    put("cut.vdb", bytes.substr(0, length));
+    EXPECT_THROW(read_vdb(path("cut.vdb"), "density"), Error) << length << " bytes";
+  }
+}
+
 TEST_F(Volumes, AnEmptyVdbGridComesBackAsOneVoxelOfNothing) {
   VolumeGrid grid = two_voxels();
   grid.voxels.scale(0);
