@@ -27,16 +27,16 @@ constexpr uint64_t hash_combine(uint64_t a, uint64_t b) {
 class Sampler {
  public:
   // index: number of the sample in its stream; successive indices are stratified together.
-  Sampler(uint64_t seed, uint64_t stream, uint32_t index)
-      : key_(hash_combine(seed, stream)), index_(index) {}
+  Sampler(uint64_t seed, uint64_t stream, uint32_t index);
 
-  float next();   // uniform in [0, 1)
-  Vec2 next_2d();  // uniform in [0, 1)^2, stratified in both dimensions together
+  float next();          // uniform in [0, 1)
+  Vec2 next_2d();        // uniform in [0, 1)^2, stratified in both dimensions together
+  uint64_t next_seed();  // of other generators; independent of all numbers of this one
   uint32_t dimension() const { return dimension_; }
 
  private:
   uint64_t key_;
-  uint32_t index_;
+  uint32_t reversed_index_;
   uint32_t dimension_ = 0;
 };
 

@@ -2,7 +2,7 @@
 // Guided product distance sampling: whether and where a flight through a medium scatters
 // [Herholz et al. 2019].
 
-#include "libguide/guiding/flight_space.h"
+#include "libguide/guiding/flight_bins.h"
 
 namespace waylight {
 
@@ -16,26 +16,42 @@ namespace waylight {
 // bin by bin, against the L of each bin's own cell: then what one cell has too low ends the flight
 // in it, and thin media, where light from behind is mostly none, suffer; the sum over the ray needs
 // no cell to agree with the others about what is behind. Within a bin, both processes place the
-// event by the truncated exponential. One process is chosen per flight, and one channel, whose
-// extinction it goes by; the density is the sum over them all. So the weight of a flight is at most
-// 1 / standard_share times that of the standard process alone, whatever the cache says.
+// event by the truncated exponential, so the density is the standard one times a factor that is
+// constant in the bin. One process is chosen per flight, and one channel, whose extinction it goes
+// by; the density is the sum over them all. So the weight of a flight is at most 1 / standard_share
+// times that of the standard process alone, whatever the cache says.
 // For homogeneous media; in others the mean of the block stands for the extinction, which is exact
 // too but puts events where a block is empty: see TrackedFlight.
 class GuidedFlight {
  public:
-  GuidedFlight(const FlightSpace& space, const FlightOptions& options)
-      : space_(space), options_(options) {}
+  // space must outlive this.
+  GuidedFlight(const FlightSpace& space, const FlightOptions& options);
 
   Flight sample(Sampler& sampler) const;
-  // For tests: per unit length, and the probability to pass.
-  float pdf(float t) const;
-  float pass_prob() const;
+  float pdf(float t) const;  // per unit length
+  float pass_prob() const { return pass_; }
 
  private:
-  struct Plan;
+  // The standard process by the extinction of one channel, or of all where they are equal.
+  struct Process {
+    float prob, sigma;
+  };
+
+  void weigh(float standard_share);
+  float standard_mass(const Process& process, int bin) const;
+  float factor(int bin) const { return standard_ + guided_ * bins_.source[bin]; }
+  float standard_pdf(float depth) const;  // per unit depth
+  int choose(float u) const;
+  float place(int bin, const Vec2& u) const;
+  Color transmittance(float t, Sampler& sampler) const;
 
   const FlightSpace& space_;
-  FlightOptions options_;
+  FlightBins bins_;
+  int process_count_;
+  std::array<Process, 3> processes_;
+  float standard_ = 1, guided_ = 0;  // what is added, by the factor, in a bin
+  float pass_ = 1;
+  alignas(32) FlightBins::Row mass_;  // of the standard processes in each bin
 };
 
 }  // namespace waylight

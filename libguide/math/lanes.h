@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace waylight {
 
@@ -19,6 +20,12 @@ inline constexpr int kLanes = 8;
 inline constexpr IntLanes kLaneIndex = {0, 1, 2, 3, 4, 5, 6, 7};
 
 inline Lanes splat(float v) { return Lanes{v, v, v, v, v, v, v, v}; }
+inline Lanes lanes_load(const float* from) {
+  Lanes v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+inline void lanes_store(Lanes v, float* to) { std::memcpy(to, &v, sizeof v); }
 inline Lanes lanes_min(Lanes a, Lanes b) { return a < b ? a : b; }  // b where either is NaN
 inline Lanes lanes_max(Lanes a, Lanes b) { return a > b ? a : b; }  // b where either is NaN
 

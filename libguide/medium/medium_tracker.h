@@ -38,8 +38,9 @@ class MediumTracker {
   explicit MediumTracker(const Medium& medium);
 
   const PhaseFunction& phase() const { return phase_; }
-  MediumCoefficients at(const Vec3& p) const {
-    return {extinction_at(p), albedo_grid_ ? albedo_grid_->color_at(p) : albedo_};
+  MediumCoefficients at(const Vec3& p) const { return {extinction_at(p), albedo_at(p)}; }
+  Color albedo_at(const Vec3& p) const {
+    return albedo_grid_ ? albedo_grid_->color_at(p) : albedo_;
   }
   bool homogeneous() const { return !density_grid_; }
   bool emits() const { return emits_; }
