@@ -21,6 +21,7 @@ class TraitsWalk {
   void look_at_widths(const Texture& u, const Texture& v) {
     look_at(u), look_at(v);
     traits_.depends_on_wo = true;
+    traits_.uniform = false;
     traits_.anisotropic |= u.mean().mean() != v.mean().mean();
   }
   void look_at_parts(const Texture& diffuse, const Texture& specular) {
@@ -60,6 +61,7 @@ class TraitsWalk {
   void visit(const PlasticMaterial& m, int) {
     look_at_parts(m.diffuse_reflectance, m.specular_reflectance);
     traits_.depends_on_wo |= blended_;
+    traits_.uniform = false;
   }
   void visit(const RoughPlasticMaterial& m, int) {
     look_at_parts(m.diffuse_reflectance, m.specular_reflectance);

@@ -17,5 +17,7 @@ int nearest_entry(EntryLayout layout, const Vec3& wo, int n);
 // should, and the entries only need to follow how its shape changes; without, those of alpha = 0.01
 // would have to be within about 0.1 degrees of wo. A single entry by elevation keeps its normal.
 Mat3 entry_rotation(EntryLayout layout, const Vec3& wo, int i, int n);
+// The same where entry_wo(layout, i, n) is at hand.
+Mat3 entry_rotation(EntryLayout layout, const Vec3& wo, const Vec3& entry_wo, int n);
 
 }  // namespace waylight

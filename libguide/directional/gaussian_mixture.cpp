@@ -83,8 +83,8 @@ void GaussianMixture::prepare() {
   // The floor again where rounding has made a rotated covariance indefinite.
   const Lanes det = lanes_max(difference_of_products(cov_xx_, cov_yy_, cov_xy_, cov_xy_),
                               kCovarianceFloor * kCovarianceFloor * (1 + Lanes{}));
-  const Lanes inverse_xx = 1 / cov_xx_;
-  const Lanes scale_a = lanes_sqrt(inverse_xx), scale_b = lanes_sqrt(cov_xx_ / det);
+  const Lanes inverse = 1 / (cov_xx_ * det), inverse_xx = inverse * det;
+  const Lanes scale_a = lanes_sqrt(inverse_xx), scale_b = lanes_sqrt(inverse * cov_xx_ * cov_xx_);
   slope_ = cov_xy_ * inverse_xx;
   inverse_a_ = kSqrtHalfLog2E * scale_a;
   inverse_b_ = kSqrtHalfLog2E * scale_b;

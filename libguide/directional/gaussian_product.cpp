@@ -56,10 +56,12 @@ GaussianProduct::GaussianProduct(const GaussianMixture& first, const GaussianMix
     const Lanes xx = lanes_.cov_xx_ + row.cov_xx, xy = lanes_.cov_xy_ + row.cov_xy;
     const Lanes yy = lanes_.cov_yy_ + row.cov_yy;
     const Lanes dx = lanes_.mean_x_ - row.mean_x, dy = lanes_.mean_y_ - row.mean_y;
-    const Lanes inverse_det = 1 / difference_of_products(xx, yy, xy, xy);
+    const Lanes det = difference_of_products(xx, yy, xy, xy);
+    const Lanes inverse = 1 / (xx * det);  // one division for two: a third of the time of the loop
+    const Lanes inverse_xx = inverse * det, inverse_det = inverse * xx;
     // The squared distance by completed squares; as one quadratic form it would cancel.
-    const Lanes across = dy - xy / xx * dx;
-    const Lanes distance2 = dx * dx / xx + across * across * xx * inverse_det;
+    const Lanes across = dy - xy * inverse_xx * dx;
+    const Lanes distance2 = dx * dx * inverse_xx + across * across * xx * inverse_det;
     const Lanes norm =
         (0.5f * kInvPi * row.weight) * lanes_.weight_ * lanes_sqrt(lanes_max(inverse_det, Lanes{}));
     scale += norm;

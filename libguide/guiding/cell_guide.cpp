@@ -12,13 +12,13 @@ constexpr float kResolvedVariance = 1e-4f;
 
 }  // namespace
 
-void CellGuide::carry(std::span<const GaussianComponent> f, const Mat3& to_world) {
+void CellGuide::carry(const GaussianMixture& f, const Mat3& to_world) {
   Mat3 rotation;
   for (int i = 0; i < 3; ++i) rotation.col(i) = frame_.to_local(to_world.col(i));
-  brdf_ = GaussianMixture(f).carried(rotation);
+  brdf_ = f.carried(rotation);
 }
 
-float CellGuide::multiply(std::span<const GaussianComponent> f, const Mat3& to_world) {
+float CellGuide::multiply(const GaussianMixture& f, const Mat3& to_world) {
   carry(f, to_world);
   product_.emplace(brdf_, light_);
   return product_->valid() ? product_->resolved_share(brdf_, kResolvedVariance) : 0;

@@ -2,7 +2,6 @@
 // Directions by what one cell of the illumination cache knows.
 
 #include <optional>
-#include <span>
 
 #include "libguide/cache/guide_cache_view.h"
 #include "libguide/directional/gaussian_product.h"
@@ -24,12 +23,10 @@ class CellGuide {
   // the share of it that this guide can better than BSDF sampling: in lobes of f much narrower than
   // the cell can resolve, light is constant as far as the cell knows, and the product no more than
   // a fit of f. 0 also when the two do not overlap: neither sample() nor pdf() may be called then.
-  float multiply(std::span<const GaussianComponent> f, const Mat3& to_world);
+  float multiply(const GaussianMixture& f, const Mat3& to_world);
 
   // From now on the mean of f and the cell's mixture.
-  void mix(std::span<const GaussianComponent> f, const Mat3& to_world) {
-    carry(f, to_world), mixed_ = true;
-  }
+  void mix(const GaussianMixture& f, const Mat3& to_world) { carry(f, to_world), mixed_ = true; }
 
   std::optional<Vec3> sample(float u, const Vec2& u2) const;  // world space
   float pdf(const Vec3& wi) const {                           // per steradian
@@ -48,7 +45,7 @@ class CellGuide {
   const CacheCell& cell() const { return cell_; }
 
  private:
-  void carry(std::span<const GaussianComponent> f, const Mat3& to_world);  // into the cell's frame
+  void carry(const GaussianMixture& f, const Mat3& to_world);  // into the cell's frame
 
   const CacheCell& cell_;
   Frame frame_;

@@ -7,16 +7,6 @@ namespace {
 constexpr float kMinSideProb = 0.1f;
 // A guide for less than this share of the BSDF is not worth its price.
 constexpr float kMinKnown = 0.02f;
-constexpr float kMinMeanCosine = 0.05f;
-
-// Mean of cos = 1 - |y|^2 over lobes on the disk, about the normal that their frame stands on.
-float mean_cosine(std::span<const GaussianComponent> lobes) {
-  float cosine = 1;
-  for (const GaussianComponent& g : lobes)
-    cosine -= g.weight * (sqr(g.mean_x) + sqr(g.mean_y) + g.cov_xx + g.cov_yy);
-  return std::max(cosine, kMinMeanCosine);
-}
-
 void open(std::optional<CellGuide>& guide, const GuideCacheView& cache, const CacheCell* cell) {
   if (!cell) return;
   guide.emplace(cache, *cell);
@@ -95,20 +85,22 @@ float DirectionSampler::prepare_sides(const GuidingCaches& caches, const Surface
   return total > 0 ? (near_ ? shares.reflected : shares.transmitted) / total : 0;
 }
 
-// The share of the BSDF that the guide is for. A material without fit keeps the light's
-// mixture as its guide.
+// The share of the BSDF that the guide is for. A material without fit keeps the light's mixture as
+// its guide, and so does a uniform one, whose product it is.
 float DirectionSampler::prepare_fit(const GuidingCaches& caches, const SurfacePoint& at) {
-  const FittedLobe lobe = caches.brdf_lobe(at.material, ng_side_ < 0, wo_local_, at.uv);
-  if (lobe.components.empty()) return 1;
+  const bool product = options_.guide == DirectionGuide::product, from_behind = ng_side_ < 0;
+  if (product && caches.uniform(at.material, from_behind)) return 1;
+  const FittedLobe fit = caches.brdf_lobe(at.material, from_behind, wo_local_, at.uv);
+  if (!fit.lobe) return 1;
   Mat3 to_world;
   to_world << resolved_.frame.s, resolved_.frame.t, resolved_.frame.n;
-  to_world *= lobe.to_shading;
-  if (options_.guide == DirectionGuide::mixture) {
-    near_->mix(lobe.components, to_world);
+  to_world *= fit.to_shading;
+  if (!product) {
+    near_->mix(fit.lobe->mixture, to_world);
     return 1;
   }
-  const float resolved = near_->multiply(lobe.components, to_world);
-  reflected_per_irradiance_ = near_->product_z() / (2 * mean_cosine(lobe.components));
+  const float resolved = near_->multiply(fit.lobe->mixture, to_world);
+  reflected_per_irradiance_ = near_->product_z() / (2 * fit.lobe->mean_cosine);
   return resolved;
 }
 

@@ -25,15 +25,51 @@ EntrySeries nearest_series(const MaterialFit& fit, float width) {
   return nearest;
 }
 
+constexpr float kMinMeanCosine = 0.05f;
+
+// Mean of cos = 1 - |y|^2 over lobes on the disk.
+float cosine_over(const GaussianMixture& lobes) {
+  float cosine = 1;
+  for (int k = 0; k < lobes.count(); ++k) {
+    const GaussianComponent g = lobes.component(k);
+    cosine -= g.weight * (sqr(g.mean_x) + sqr(g.mean_y) + g.cov_xx + g.cov_yy);
+  }
+  return std::max(cosine, kMinMeanCosine);
+}
+
 }  // namespace
+
+BrdfLobe::BrdfLobe(std::span<const GaussianComponent> components, const Vec3& of)
+    : mixture(components), wo(of), mean_cosine(cosine_over(mixture)) {}
 
 GuidingCaches::GuidingCaches(const BrdfCache* brdf, const GuideCacheView& guide,
                              std::span<const Material> materials, std::span<const Medium> media)
     : brdf_(brdf),
       guide_(guide),
       media_(guide.medium, media),
-      fit_of_material_(materials.size(), {-1, -1}) {
+      fit_of_material_(materials.size(), {-1, -1}),
+      uniform_(materials.size(), {false, false}) {
   if (!brdf_) return;
+  prepare_lobes();
+  prepare_materials(materials);
+}
+
+void GuidingCaches::prepare_lobes() {
+  for (const BrdfCacheEntry& entry : brdf_->entries)
+    lobes_.emplace_back(
+        std::span(brdf_->components).subspan(entry.first_component, entry.component_count),
+        Vec3::UnitZ());
+  const auto stand_for = [&](EntryLayout layout, uint32_t first, uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i)
+      lobes_[first + i].wo = entry_wo(layout, static_cast<int>(i), static_cast<int>(count));
+  };
+  for (const MaterialFit& fit : brdf_->materials) {
+    stand_for(fit.layout, fit.first_entry, fit.entry_count);
+    for (const WidthSeries& s : fit.widths) stand_for(fit.layout, s.first_entry, s.entry_count);
+  }
+}
+
+void GuidingCaches::prepare_materials(std::span<const Material> materials) {
   std::vector<int> front(materials.size(), -1);
   for (size_t i = 0; i < brdf_->materials.size(); ++i)
     if (brdf_->materials[i].material < materials.size() && brdf_->materials[i].entry_count > 0)
@@ -45,6 +81,8 @@ GuidingCaches::GuidingCaches(const BrdfCache* brdf, const GuideCacheView& guide,
   for (size_t m = 0; m < materials.size(); ++m) {
     const int behind = material_behind(materials, static_cast<int>(m));
     fit_of_material_[m] = {front[m], behind >= 0 ? front[behind] : -1};
+    uniform_[m] = {lobe_traits(materials, static_cast<int>(m)).uniform,
+                   behind >= 0 && lobe_traits(materials, behind).uniform};
   }
 }
 
@@ -55,10 +93,10 @@ FittedLobe GuidingCaches::brdf_lobe(int material, bool from_behind, const Vec3& 
   if (index < 0) return {};
   const MaterialFit& fit = brdf_->materials[index];
   const EntrySeries series = nearest_series(fit, widths_[index] ? widths_[index]->at(uv) : 0);
-  const int i = nearest_entry(fit.layout, wo, series.entry_count);
-  const BrdfCacheEntry& entry = brdf_->entries[series.first_entry + i];
-  return {std::span(brdf_->components).subspan(entry.first_component, entry.component_count),
-          entry_rotation(fit.layout, wo, i, series.entry_count)};
+  const int n = series.entry_count;
+  const BrdfLobe& lobe = lobes_[series.first_entry + nearest_entry(fit.layout, wo, n)];
+  if (lobe.mixture.count() == 0) return {};
+  return {&lobe, entry_rotation(fit.layout, wo, lobe.wo, n)};
 }
 
 }  // namespace waylight

@@ -13,9 +13,18 @@
 
 namespace waylight {
 
+// What was fitted to f for one wo.
+struct BrdfLobe {
+  GaussianMixture mixture;
+  Vec3 wo;            // in the frame of the entry
+  float mean_cosine;  // of the mixture, to the normal that its frame stands on; not near 0
+
+  BrdfLobe(std::span<const GaussianComponent> components, const Vec3& wo);
+};
+
 struct FittedLobe {
-  std::span<const GaussianComponent> components;
-  Mat3 to_shading = Mat3::Identity();  // rotation from the components' frame to the shading frame
+  const BrdfLobe* lobe = nullptr;      // null where there is no fit
+  Mat3 to_shading = Mat3::Identity();  // rotation from the lobe's frame to the shading frame
 };
 
 class GuidingCaches {
@@ -33,6 +42,10 @@ class GuidingCaches {
   // a two-sided material is seen, which may have a fit of its own (material_behind).
   FittedLobe brdf_lobe(int material, bool from_behind, const Vec3& wo, const Vec2& uv) const;
   bool has_fits() const { return brdf_ != nullptr; }
+  // Whether f is the same for all wi: its product with the light is the light.
+  bool uniform(int material, bool from_behind) const {
+    return material >= 0 && uniform_[material][from_behind];
+  }
 
   // What was learned of a cell; `otherwise` as long as nothing has been.
   CellChoice choice(const CacheCell& cell, const CellChoice& otherwise) const {
@@ -44,11 +57,16 @@ class GuidingCaches {
   void learned(std::vector<CellChoice> choices) { choices_ = std::move(choices); }  // by cell
 
  private:
+  void prepare_lobes();
+  void prepare_materials(std::span<const Material> materials);
+
   const BrdfCache* brdf_ = nullptr;
+  std::vector<BrdfLobe> lobes_;  // by brdf_->entries
   GuideCacheView guide_;
   MediumGuides media_;
   // By material, for its front and its back: index into brdf_->materials, or -1.
   std::vector<std::array<int, 2>> fit_of_material_;
+  std::vector<std::array<bool, 2>> uniform_;
   std::vector<std::optional<LobeWidth>> widths_;  // by brdf_->materials; where textured
   std::vector<CellChoice> choices_;               // by cell; empty: not learned
 };

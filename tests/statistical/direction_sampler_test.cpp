@@ -152,12 +152,29 @@ TEST(DirectionSamplerSlow, ABackWithAFitOfItsOwnIsSampledByIt) {
   const GuidedFloor floor(std::move(scene), {0.1f, 0, 1}, some_light());  // seen from behind
   expect_valid(floor, DirectionGuide::product, 0.5f, from(40, 1), "back");
   const auto lobes = [&](int material, bool from_behind) {
-    return floor.caches.brdf_lobe(material, from_behind, from(60, 1), Vec2::Zero())
-        .components.data();
+    return floor.caches.brdf_lobe(material, from_behind, from(60, 1), Vec2::Zero()).lobe;
   };
   EXPECT_NE(lobes(sheet, true), nullptr);
   EXPECT_EQ(lobes(sheet, true), lobes(back, false));
   EXPECT_NE(lobes(sheet, true), lobes(sheet, false));
+}
+
+// Its product is the light: nothing is multiplied for it, but for what gloss there is on it.
+TEST(DirectionSampler, AUniformBsdfIsGuidedByTheLightAlone) {
+  PlasticMaterial gloss;
+  gloss.nonlinear = true;
+  for (const auto& [name, model, uniform] :
+       {std::tuple<std::string, MaterialModel, bool>{"diffuse", DiffuseMaterial{}, true},
+        {"plastic", gloss, false}}) {
+    const GuidedFloor floor(floor_of(model), {0.1f, 0, 1}, some_light());
+    const Vec3 wo = from(40, 1);
+    const SurfacePoint at = floor.floor_from(wo);
+    const DirectionSampler product(floor.scene, floor.caches, {DirectionGuide::product}, at, wo);
+    const DirectionSampler light(floor.scene, floor.caches, {DirectionGuide::illumination}, at, wo);
+    const Vec3 wi = from(50, 2);
+    EXPECT_EQ(product.pdf(wi) == light.pdf(wi), uniform) << name;
+    EXPECT_EQ(product.reflected_estimate() == light.reflected_estimate(), uniform) << name;
+  }
 }
 
 // Directions by guide: the mean of the weight is the albedo whatever guides.
