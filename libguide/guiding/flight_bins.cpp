@@ -77,7 +77,7 @@ void FlightBins::lay_out(const FlightSpace& space, Cells& cells) {
 
 // A cell that is not known takes after the one before.
 void FlightBins::look_up(const FlightSpace& space, const Cells& cells) {
-  const int looking = ScatteredBins::of(space.ray.direction);
+  const int looking = space.guides.bins(space.index).of(space.ray.direction);
   float scattered = 0;
   for (int i = 0; i < count; ++i) {
     const float known = space.guides.scattered(space.index, cells[i], looking);

@@ -18,18 +18,30 @@ MediumGuide::MediumGuide(const MediumCacheView& cache, const MediumCell& cell,
       trust_(cell.indirect.effective_samples /
              (cell.indirect.effective_samples + kHalfTrustSamples)) {}
 
-std::array<float, ScatteredBins::kCount> MediumGuide::scattered(const PhaseLobes& phase) const {
+std::vector<float> MediumGuide::scattered(const PhaseLobes& phase,
+                                          const ScatteredBins& bins) const {
   const VmfConvolution direct(direct_, phase);
-  std::array<float, ScatteredBins::kCount> radiance;
-  for (int i = 0; i < ScatteredBins::kCount; ++i) {
-    const Vec3 w = ScatteredBins::centre(i);
+  std::vector<float> radiance(bins.count());
+  for (int i = 0; i < bins.count(); ++i) {
+    const Vec3 w = bins.centre(i);
     radiance[i] = known_ ? scattered_indirect(w) + direct_fluence_ * direct.pdf(w) : -1;
   }
   return radiance;
 }
 
+MediumGuides::PhaseGuides::PhaseGuides(const MediumCacheView& cache, float mean_cosine)
+    : lobes(phase_lobes(mean_cosine)), bins(mean_cosine) {
+  guides.reserve(cache.cells.size());
+  for (const MediumCell& cell : cache.cells) guides.emplace_back(cache, cell, lobes);
+  scattered.resize(guides.size() * bins.count());
+  parallel_for(guides.size(), [&](size_t i) {
+    const std::vector<float> radiance = guides[i].scattered(lobes, bins);
+    for (int bin = 0; bin < bins.count(); ++bin) scattered[bin * guides.size() + i] = radiance[bin];
+  });
+}
+
 MediumGuides::MediumGuides(const MediumCacheView& cache, std::span<const Medium> media)
-    : nodes_(cache.nodes), cells_(cache.cells.size()) {
+    : nodes_(cache.nodes) {
   std::vector<float> cosines;
   for (const Medium& medium : media) {
     const float g = mean_cosine(medium.phase);
@@ -37,17 +49,8 @@ MediumGuides::MediumGuides(const MediumCacheView& cache, std::span<const Medium>
     phase_of_medium_.push_back(static_cast<int>(known - cosines.begin()));
     if (known != cosines.end()) continue;
     cosines.push_back(g);
-    phases_.push_back(phase_lobes(g));
+    phases_.emplace_back(cache, g);
   }
-  guides_.reserve(cells_ * phases_.size());
-  for (const PhaseLobes& phase : phases_)
-    for (const MediumCell& cell : cache.cells) guides_.emplace_back(cache, cell, phase);
-  scattered_.resize(guides_.size() * ScatteredBins::kCount);
-  parallel_for(guides_.size(), [&](size_t i) {
-    const auto radiance = guides_[i].scattered(phases_[i / cells_]);
-    for (int bin = 0; bin < ScatteredBins::kCount; ++bin)
-      scattered_[bin * guides_.size() + i] = radiance[bin];
-  });
 }
 
 }  // namespace waylight

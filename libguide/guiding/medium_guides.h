@@ -14,25 +14,34 @@
 
 namespace waylight {
 
-// The directions in which a ray may look at a cell, in bins of about 13 degrees: flights ask every
-// cell along them for what it scatters, and a table is ten times as fast as two convolutions. A bin
-// has the value at its centre; it tells where flights end more often, which biases nothing.
-struct ScatteredBins {
-  static constexpr int kSide = 16, kCount = kSide * kSide;
+// The directions in which a ray may look at a cell, in bins: flights ask every cell along them for
+// what it scatters, and a table is ten times as fast as two convolutions. A bin has the value at
+// its centre; it tells where flights end more often, which biases nothing. The tables of thousands
+// of cells have to stay close to the processor, so bins are as fine as the phase function asks for:
+// one where it is even, of about 26 degrees up to |g| = 1/2, else of about 13.
+class ScatteredBins {
+ public:
+  explicit ScatteredBins(float mean_cosine)
+      : side_(mean_cosine == 0                ? 1
+              : std::abs(mean_cosine) <= 0.5f ? 8
+                                              : 16) {}
 
-  static int of(const Vec3& w) {
+  int count() const { return side_ * side_; }
+  int of(const Vec3& w) const {
     const Vec2 p = direction_to_octahedral(w);
-    return bin(p.y()) * kSide + bin(p.x());
+    return bin(p.y()) * side_ + bin(p.x());
   }
-  static Vec3 centre(int i) {
-    const auto at = [](int k) { return (2 * k + 1) / float(kSide) - 1; };
-    return octahedral_to_direction({at(i % kSide), at(i / kSide)});
+  Vec3 centre(int i) const {
+    const auto at = [&](int k) { return static_cast<float>(2 * k + 1) / side_ - 1; };
+    return octahedral_to_direction({at(i % side_), at(i / side_)});
   }
 
  private:
-  static int bin(float v) {
-    return std::clamp(static_cast<int>((v + 1) * (0.5f * kSide)), 0, kSide - 1);
+  int bin(float v) const {
+    return std::clamp(static_cast<int>((v + 1) * 0.5f * side_), 0, side_ - 1);
   }
+
+  int side_;
 };
 
 // One cell, in media of one phase function. Luminances; `w` points away from the camera side, along
@@ -55,8 +64,8 @@ class MediumGuide {
   float scattered_indirect(const Vec3& w) const {
     return indirect_fluence_ * scattered_indirect_.pdf(w);
   }
-  // The same of all light, for each of the ScatteredBins; negative where it is not known.
-  std::array<float, ScatteredBins::kCount> scattered(const PhaseLobes& phase) const;
+  // The same of all light, for each bin; negative where it is not known.
+  std::vector<float> scattered(const PhaseLobes& phase, const ScatteredBins& bins) const;
 
  private:
   VmfMixture indirect_, direct_;
@@ -72,31 +81,36 @@ class MediumGuides {
   // cache must outlive this; media: of the scene.
   MediumGuides(const MediumCacheView& cache, std::span<const Medium> media);
 
-  bool empty() const { return guides_.empty(); }
-  const PhaseLobes& phase(int medium) const { return phases_[phase_of_medium_[medium]]; }
+  bool empty() const { return nodes_.empty() || phases_.empty(); }
+  const PhaseLobes& phase(int medium) const { return phases_[phase_of_medium_[medium]].lobes; }
+  const ScatteredBins& bins(int medium) const { return phases_[phase_of_medium_[medium]].bins; }
   const MediumGuide& at(int medium, const Vec3& p) const {
     return guide(medium, find_leaf(nodes_, p, Vec3::UnitZ()));
   }
   LeafWalk walk(const Ray& ray, float t_max) const { return LeafWalk(nodes_, ray, t_max); }
   const MediumGuide& guide(int medium, uint32_t cell) const {
-    return guides_[number(medium, cell)];
+    return phases_[phase_of_medium_[medium]].guides[cell];
   }
   // int f(w, w') L(x, w') dw' of all light, `bin` that of w; negative where the cell is not known.
   float scattered(int medium, uint32_t cell, int bin) const {
-    return scattered_[bin * guides_.size() + number(medium, cell)];
+    const PhaseGuides& phase = phases_[phase_of_medium_[medium]];
+    return phase.scattered[bin * phase.guides.size() + cell];
   }
 
  private:
-  size_t number(int medium, uint32_t cell) const {
-    return phase_of_medium_[medium] * cells_ + cell;
-  }
+  // The cells for media of one phase function.
+  struct PhaseGuides {
+    PhaseLobes lobes;
+    ScatteredBins bins;
+    std::vector<MediumGuide> guides;
+    std::vector<float> scattered;  // bin by bin, cell by cell: a ray stays within one bin
+
+    PhaseGuides(const MediumCacheView& cache, float mean_cosine);
+  };
 
   std::span<const CacheNode> nodes_;
-  size_t cells_ = 0;
   std::vector<int> phase_of_medium_;
-  std::vector<PhaseLobes> phases_;
-  std::vector<MediumGuide> guides_;  // phase by phase, cell by cell
-  std::vector<float> scattered_;     // bin by bin, as guides_: a ray stays within one bin
+  std::vector<PhaseGuides> phases_;
 };
 
 }  // namespace waylight

@@ -79,7 +79,7 @@ class Sweep {
 
   const FlightSpace& space_;
   RandomStream& random_;
-  int looking_ = ScatteredBins::of(space_.ray.direction);
+  int looking_ = space_.guides.bins(space_.index).of(space_.ray.direction);
   float t_max_;
   LeafWalk cells_;
   LeafSpan cell_;
