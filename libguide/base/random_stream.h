@@ -5,7 +5,7 @@
 namespace waylight {
 
 // Independent uniform numbers for loops of unknown length, such as tracking through a medium: they
-// need no stratification, and cost half of a Sampler's.
+// need no stratification, and cost a fifteenth of a Sampler's.
 class RandomStream {
  public:
   explicit RandomStream(Sampler& path) : state_(path.next_seed()) {}

@@ -9,7 +9,7 @@ namespace {
 float entry_theta(int i, int n) { return (i + 0.5f) / n * (0.5f * kPi); }
 
 // Within 7e-5 [Abramowitz, Stegun 1964, 4.4.45]; x in [0, 1].
-float acos_about(float x) {
+float fast_acos(float x) {
   return std::sqrt(1 - x) * (1.5707288f + x * (-0.2121144f + x * (0.0742610f - x * 0.0187293f)));
 }
 
@@ -45,7 +45,7 @@ Vec3 entry_wo(EntryLayout layout, int i, int n) {
 
 int nearest_entry(EntryLayout layout, const Vec3& wo, int n) {
   if (layout == EntryLayout::fibonacci) return nearest_hemisphere_fibonacci(wo, n);
-  const float theta = acos_about(std::clamp(wo.z(), 0.0f, 1.0f));
+  const float theta = fast_acos(std::clamp(wo.z(), 0.0f, 1.0f));
   return std::min(static_cast<int>(theta * (2 * kInvPi) * n), n - 1);
 }
 

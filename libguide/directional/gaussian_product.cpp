@@ -57,7 +57,7 @@ GaussianProduct::GaussianProduct(const GaussianMixture& first, const GaussianMix
     const Lanes yy = lanes_.cov_yy_ + row.cov_yy;
     const Lanes dx = lanes_.mean_x_ - row.mean_x, dy = lanes_.mean_y_ - row.mean_y;
     const Lanes det = difference_of_products(xx, yy, xy, xy);
-    const Lanes inverse = 1 / (xx * det);  // one division for two: a third of the time of the loop
+    const Lanes inverse = 1 / (xx * det);  // one division for two
     const Lanes inverse_xx = inverse * det, inverse_det = inverse * xx;
     // The squared distance by completed squares; as one quadratic form it would cancel.
     const Lanes across = dy - xy * inverse_xx * dx;

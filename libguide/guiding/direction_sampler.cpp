@@ -7,6 +7,7 @@ namespace {
 constexpr float kMinSideProb = 0.1f;
 // A guide for less than this share of the BSDF is not worth its price.
 constexpr float kMinKnown = 0.02f;
+
 void open(std::optional<CellGuide>& guide, const GuideCacheView& cache, const CacheCell* cell) {
   if (!cell) return;
   guide.emplace(cache, *cell);

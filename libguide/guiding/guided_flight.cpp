@@ -49,11 +49,12 @@ float GuidedFlight::standard_mass(const Process& process, int bin) const {
   return process.prob * std::exp(-process.sigma * bins_.depth[bin]) * -std::expm1(-thickness);
 }
 
-float GuidedFlight::standard_pdf(float depth) const {
-  float sum = 0;
+float GuidedFlight::pdf_in(int bin, float t) const {
+  const float depth = bins_.depth_at(bin, t);
+  float standard = 0;  // per unit depth
   for (int c = 0; c < process_count_; ++c)
-    sum += processes_[c].prob * processes_[c].sigma * std::exp(-processes_[c].sigma * depth);
-  return sum;
+    standard += processes_[c].prob * processes_[c].sigma * std::exp(-processes_[c].sigma * depth);
+  return standard * bins_.density[bin] * factor(bin);
 }
 
 // By the truncated exponential of one process, chosen by its share of the bin's mass.
@@ -100,15 +101,14 @@ Flight GuidedFlight::sample(Sampler& sampler) const {
   if (bin < 0) return {space_.t_max, false, transmittance(space_.t_max, sampler) / pass_, {}};
   const float t = place(bin, u);
   const MediumCoefficients here = space_.medium.at(space_.ray(t));
-  const float density = standard_pdf(bins_.depth_at(bin, t)) * bins_.density[bin] * factor(bin);
-  if (!(density > 0)) return {t, true, Color::Zero(), here};  // nothing is seen through so much
-  return {t, true, transmittance(t, sampler) * here.sigma_t / density, here};
+  const float pdf = pdf_in(bin, t);
+  if (!(pdf > 0)) return {t, true, Color::Zero(), here};  // nothing is seen through so much
+  return {t, true, transmittance(t, sampler) * here.sigma_t / pdf, here};
 }
 
 float GuidedFlight::pdf(float t) const {
   const int bin = bins_.find(t);
-  if (bin < 0) return 0;
-  return standard_pdf(bins_.depth_at(bin, t)) * bins_.density[bin] * factor(bin);
+  return bin < 0 ? 0 : pdf_in(bin, t);
 }
 
 }  // namespace waylight

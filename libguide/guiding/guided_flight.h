@@ -40,7 +40,7 @@ class GuidedFlight {
   void weigh(float standard_share);
   float standard_mass(const Process& process, int bin) const;
   float factor(int bin) const { return standard_ + guided_ * bins_.source[bin]; }
-  float standard_pdf(float depth) const;  // per unit depth
+  float pdf_in(int bin, float t) const;
   int choose(float u) const;
   float place(int bin, const Vec2& u) const;
   Color transmittance(float t, Sampler& sampler) const;
