@@ -83,6 +83,7 @@ void FlightBins::look_up(const FlightSpace& space, const Cells& cells) {
     const float known = space.guides.scattered(space.index, cells[i], looking);
     if (known >= 0) scattered = known;
     source[i] = luminance(space.medium.albedo_at(space.ray(start[i]))) * scattered;
+    direct[i] = space.guides.direct_share(cells[i]);
   }
   if (count == 0) return;
   const MediumGuide& last = space.guides.guide(space.index, cells[count - 1]);
@@ -91,7 +92,7 @@ void FlightBins::look_up(const FlightSpace& space, const Cells& cells) {
 
 void FlightBins::pad() {
   for (int i = count; i % kLanes != 0; ++i)
-    start[i] = length[i] = density[i] = depth[i] = source[i] = 0;
+    start[i] = length[i] = density[i] = depth[i] = source[i] = direct[i] = 0;
 }
 
 int FlightBins::find(float t) const {

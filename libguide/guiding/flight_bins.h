@@ -31,6 +31,7 @@ struct FlightBins {
   alignas(32) Row start, length, density;
   alignas(32) Row depth;   // before the bin
   alignas(32) Row source;  // albedo Li, Li the radiance scattered towards the ray's origin
+  alignas(32) Row direct;  // the share of emitters in the light that the cell sees
 
  private:
   using Cells = std::array<uint32_t, kMax>;

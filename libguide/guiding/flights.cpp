@@ -19,13 +19,23 @@ Flight equiangular_flight(const Scene& scene, const FlightSpace& space, Sampler&
   return light ? EquiangularFlight(space, *light).sample(sampler) : standard_flight(space, sampler);
 }
 
+// Where emitters add little, finding one costs more than it saves.
+Flight guided_flight(const Scene& scene, const FlightSpace& space, const FlightOptions& options,
+                     Sampler& sampler) {
+  constexpr float kWorthAiming = 0.02f;
+  GuidedFlight flight(space, options);
+  if (flight.direct_share() > kWorthAiming)
+    if (const std::optional<Vec3> light = light_point(scene, space, sampler)) flight.aim_at(*light);
+  return flight.sample(sampler);
+}
+
 }  // namespace
 
 Flight sample_flight(FlightMethod method, const Scene& scene, const FlightSpace& space,
                      const FlightOptions& options, Sampler& sampler) {
   switch (method) {
     case FlightMethod::guided:
-      if (space.medium.homogeneous()) return GuidedFlight(space, options).sample(sampler);
+      if (space.medium.homogeneous()) return guided_flight(scene, space, options, sampler);
       return options.guides_grids ? TrackedFlight(space, options).sample(sampler)
                                   : standard_flight(space, sampler);
     case FlightMethod::probability:

@@ -22,7 +22,7 @@ GuidedFlight::GuidedFlight(const FlightSpace& space, const FlightOptions& option
 }
 
 void GuidedFlight::weigh(float standard_share) {
-  Lanes sum{};
+  Lanes sum{}, direct{};
   for (int i = 0; i < bins_.count; i += kLanes) {
     const Lanes depth = lanes_load(&bins_.depth[i]);
     const Lanes thickness = lanes_load(&bins_.density[i]) * lanes_load(&bins_.length[i]);
@@ -32,7 +32,9 @@ void GuidedFlight::weigh(float standard_share) {
       mass += prob * exp_clamped(-sigma * depth) * attenuated_share(sigma * thickness);
     }
     lanes_store(mass, &mass_[i]);
-    sum += mass * lanes_load(&bins_.source[i]);
+    const Lanes guided = mass * lanes_load(&bins_.source[i]);
+    sum += guided;
+    direct += guided * lanes_load(&bins_.direct[i]);
   }
   float passed = 0;
   for (int c = 0; c < process_count_; ++c)
@@ -42,6 +44,12 @@ void GuidedFlight::weigh(float standard_share) {
   standard_ = knows ? standard_share : 1;
   guided_ = knows ? (1 - standard_share) / total : 0;
   pass_ = passed * (standard_ + guided_ * bins_.end_radiance);
+  direct_mass_ = lanes_sum(direct);
+}
+
+void GuidedFlight::aim_at(const Vec3& light) {
+  near_light_ = EquiangularRange(space_, bins_.sigma, light);
+  aimed_ = near_light_.angle() * (1 / kPi);
 }
 
 float GuidedFlight::standard_mass(const Process& process, int bin) const {
@@ -95,20 +103,28 @@ int GuidedFlight::choose(float u) const {
   return chosen;
 }
 
-Flight GuidedFlight::sample(Sampler& sampler) const {
-  const int bin = choose(sampler.next());
-  const Vec2 u = sampler.next_2d();
-  if (bin < 0) return {space_.t_max, false, transmittance(space_.t_max, sampler) / pass_, {}};
-  const float t = place(bin, u);
+Flight GuidedFlight::scatter(float t, float pdf, Sampler& sampler) const {
   const MediumCoefficients here = space_.medium.at(space_.ray(t));
-  const float pdf = pdf_in(bin, t);
   if (!(pdf > 0)) return {t, true, Color::Zero(), here};  // nothing is seen through so much
   return {t, true, transmittance(t, sampler) * here.sigma_t / pdf, here};
 }
 
+Flight GuidedFlight::sample(Sampler& sampler) const {
+  const float choice = sampler.next() - aimed_share();
+  const Vec2 u = sampler.next_2d();
+  if (choice < 0) {
+    const float t = near_light_.sample(u.x());
+    return scatter(t, pdf(t), sampler);
+  }
+  const int bin = choose(choice);
+  if (bin < 0) return {space_.t_max, false, transmittance(space_.t_max, sampler) / pass_, {}};
+  const float t = place(bin, u);
+  return scatter(t, pdf_in(bin, t) + aimed_share() * near_light_.pdf(t), sampler);
+}
+
 float GuidedFlight::pdf(float t) const {
   const int bin = bins_.find(t);
-  return bin < 0 ? 0 : pdf_in(bin, t);
+  return (bin < 0 ? 0 : pdf_in(bin, t)) + aimed_share() * near_light_.pdf(t);
 }
 
 }  // namespace waylight

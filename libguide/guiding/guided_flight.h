@@ -2,6 +2,7 @@
 // Guided product distance sampling: whether and where a flight through a medium scatters
 // [Herholz et al. 2019].
 
+#include "libguide/guiding/equiangular_range.h"
 #include "libguide/guiding/flight_bins.h"
 
 namespace waylight {
@@ -20,6 +21,10 @@ namespace waylight {
 // constant in the bin. One process is chosen per flight, and one channel, whose extinction it goes
 // by; the density is the sum over them all. So the weight of a flight is at most 1 / standard_share
 // times that of the standard process alone, whatever the cache says.
+// Cells are too coarse for the light near a lamp, which falls with the square of the distance. So,
+// of what emitters send straight to the bins, a share is given to flights spread evenly over the
+// angle under which a point of a lamp sees the ray [Kulla, Fajardo 2012]: that angle over pi, next
+// to nothing for lamps far away, whose light is the same all over a cell.
 // For homogeneous media; in others the mean of the block stands for the extinction, which is exact
 // too but puts events where a block is empty: see TrackedFlight.
 class GuidedFlight {
@@ -31,6 +36,11 @@ class GuidedFlight {
   float pdf(float t) const;  // per unit length
   float pass_prob() const { return pass_; }
 
+  // Of all flights, those guided by light straight from emitters.
+  float direct_share() const { return guided_ * direct_mass_; }
+  // Gives a part of them to the point of a light. Given any one, the flight is unbiased.
+  void aim_at(const Vec3& light);
+
  private:
   // The standard process by the extinction of one channel, or of all where they are equal.
   struct Process {
@@ -39,11 +49,15 @@ class GuidedFlight {
 
   void weigh(float standard_share);
   float standard_mass(const Process& process, int bin) const;
-  float factor(int bin) const { return standard_ + guided_ * bins_.source[bin]; }
+  float factor(int bin) const {
+    return standard_ + guided_ * bins_.source[bin] * (1 - aimed_ * bins_.direct[bin]);
+  }
+  float aimed_share() const { return aimed_ * direct_share(); }
   float pdf_in(int bin, float t) const;
   int choose(float u) const;
   float place(int bin, const Vec2& u) const;
   Color transmittance(float t, Sampler& sampler) const;
+  Flight scatter(float t, float pdf, Sampler& sampler) const;
 
   const FlightSpace& space_;
   FlightBins bins_;
@@ -51,6 +65,9 @@ class GuidedFlight {
   std::array<Process, 3> processes_;
   float standard_ = 1, guided_ = 0;  // what is added, by the factor, in a bin
   float pass_ = 1;
+  float direct_mass_ = 0;  // of guided flights, before their factor
+  EquiangularRange near_light_;
+  float aimed_ = 0;                   // the part of those flights that it has, in [0, 1]
   alignas(32) FlightBins::Row mass_;  // of the standard processes in each bin
 };
 

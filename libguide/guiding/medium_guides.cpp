@@ -51,6 +51,9 @@ MediumGuides::MediumGuides(const MediumCacheView& cache, std::span<const Medium>
     cosines.push_back(g);
     phases_.emplace_back(cache, g);
   }
+  if (phases_.empty()) return;
+  for (const MediumGuide& guide : phases_.front().guides)
+    direct_shares_.push_back(guide.direct_share());
 }
 
 }  // namespace waylight

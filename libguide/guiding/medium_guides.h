@@ -66,6 +66,10 @@ class MediumGuide {
   }
   // The same of all light, for each bin; negative where it is not known.
   std::vector<float> scattered(const PhaseLobes& phase, const ScatteredBins& bins) const;
+  // Of the fluence, what comes straight from emitters, in [0, 1].
+  float direct_share() const {
+    return direct_fluence_ > 0 ? direct_fluence_ / (direct_fluence_ + indirect_fluence_) : 0;
+  }
 
  private:
   VmfMixture indirect_, direct_;
@@ -96,6 +100,7 @@ class MediumGuides {
     const PhaseGuides& phase = phases_[phase_of_medium_[medium]];
     return phase.scattered[bin * phase.guides.size() + cell];
   }
+  float direct_share(uint32_t cell) const { return direct_shares_[cell]; }
 
  private:
   // The cells for media of one phase function.
@@ -111,6 +116,7 @@ class MediumGuides {
   std::span<const CacheNode> nodes_;
   std::vector<int> phase_of_medium_;
   std::vector<PhaseGuides> phases_;
+  std::vector<float> direct_shares_;  // of the cells, apart from their guides, which are large
 };
 
 }  // namespace waylight
