@@ -90,8 +90,7 @@ void TrainingCell::locate(std::span<const Photon> block, std::span<const uint32_
     const bool from_lights = photon.from == TracedFrom::lights;
     if (!from_lights && !guided) continue;
     moments.add(photon, from_lights ? weight : 0);
-    own_.extend(photon.position);
-    ++own_count_;
+    own_.add(photon.position);
   }
   moments.merge_into(training_);
 }
@@ -146,11 +145,10 @@ void TrainingCell::unite(const TrainingCell& sibling, const CellReach& reach, do
                          double min_area) {
   const double both = area(min_area) + sibling.area(min_area);
   const double exposures = exposure(now, min_area) + sibling.exposure(now, min_area);
-  own_ = extent();
-  own_.extend(sibling.extent());
-  inherited_ = own_;
+  inherited_ = extent();
+  inherited_.extend(sibling.extent());
+  own_ = {};
   united_ = reach;
-  own_count_ += sibling.own_count_;
   add_moments(training_, sibling.training_);
   training_.inherited_area = static_cast<float>(both);
   training_.flux =
@@ -195,7 +193,7 @@ TrainingCell TrainingCell::child(const CellSplit& split, bool upper, double now,
 
 // The box of n photons lacks about 1 / n of what they are spread over.
 Bounds TrainingCell::extent() const {
-  if (own_count_ >= kOwnExtentPhotons) return own_;
+  if (own_.count() >= kOwnExtentPhotons) return own_.box();
   return inherited_;
 }
 
@@ -207,7 +205,7 @@ CellReach TrainingCell::reach() const {
   if (box.empty()) return {};
   const Vec3 room = Vec3::Constant(kRoom * box.radius());
   CellReach reach{box.min - room, box.max + room};
-  if (own_count_ < kOwnExtentPhotons) return reach;
+  if (own_.count() < kOwnExtentPhotons) return reach;
   const Vec3 spread = kDeviations * (training_.position_m2 / training_.count).cwiseSqrt() +
                       Vec3::Constant(kThickness * box.radius());
   reach.min = reach.min.cwiseMax(training_.position_mean - spread);

@@ -6,6 +6,7 @@
 #include "libguide/cache/cell_evidence.h"
 #include "libguide/cache/cell_split.h"
 #include "libguide/cache/online_mixture.h"
+#include "libguide/cache/photon_extent.h"
 #include "libguide/directional/expectation_maximization.h"
 #include "libguide/records/guide_cache.h"
 #include "libguide/records/photon.h"
@@ -123,9 +124,8 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   double area(double min_area) const;
 
   CellEvidence evidence_;
-  Bounds own_;  // of the photons since the cell was made, in this training
+  PhotonExtent own_;  // of the photons since the cell was made, in this training
   Bounds inherited_ = {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
-  uint32_t own_count_ = 0;
   std::optional<CellReach> united_;  // the reach of a cell that was merged
 };
 
