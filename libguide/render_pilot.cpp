@@ -70,14 +70,14 @@ bool begins_by_throughput(const Scene& scene, const GuidingCaches& caches,
          has_media(scene, false);
 }
 
-// What the options leave open, and the caches make possible.
+// What the options leave open, and the caches make possible. A short pilot gets to the first alone.
 std::vector<Alternative> alternatives(const Scene& scene, const GuidingCaches& caches,
                                       const RenderOptions& options) {
   std::vector<Alternative> open;
-  if (caches.guided()) open.push_back(kResampling);
-  if (caches.guided() && caches.has_fits()) open.push_back(kLight);
   if (options.roulette == RouletteMode::automatic)
     open.push_back(begins_by_throughput(scene, caches, options) ? kGuidedRoulette : kRoulette);
+  if (caches.guided()) open.push_back(kResampling);
+  if (caches.guided() && caches.has_fits()) open.push_back(kLight);
   if (caches.media().empty()) return open;
   if (options.direction == PhaseMode::automatic) open.push_back(kPhase);
   if (options.distance != DistanceMode::automatic) return open;
@@ -174,7 +174,7 @@ void count_cells(const std::vector<CellChoice>& choices, AutoDecision* decision)
   }
 }
 
-// What was measured: everything guided, nothing, and the changes in their order.
+// What was measured: everything guided, nothing, and the first of the changes in their order.
 class Verdict {
  public:
   Verdict(const std::vector<PilotArm>& arms, const std::vector<Alternative>& open, bool rare)
@@ -209,7 +209,7 @@ class Verdict {
   }
   std::optional<size_t> best_change(Decision of) const {
     std::optional<size_t> best;
-    for (size_t i = 0; i < open_.size(); ++i) {
+    for (size_t i = 0; i + 2 < arms_.size(); ++i) {
       const double least = std::max(kCertainty * arms_[i + 2].figures.uncertainty, kLeastGain);
       if (open_[i].of != of || !(gain(i + 2) > least)) continue;
       if (!best || gain(i + 2) > gain(*best + 2)) best = i;

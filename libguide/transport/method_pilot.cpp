@@ -197,12 +197,16 @@ class ArmFigures {
 
 bool measure(const PathTracer& tracer, std::vector<PilotArm>& arms, const PilotFrame& frame,
              const MethodPilotOptions& options, const std::function<bool()>& stop) {
+  const double paths_per_tile = 2.0 * frame.places() / frame.tiles();  // of one arm
+  const double affordable = double(options.max_paths) / paths_per_tile;
+  const size_t most =
+      FrameTurns(frame.tiles(), kTilesPerTurn, int(arms.size()), affordable).count();
+  if (most < 2) return false;
+  arms.resize(std::min(arms.size(), most));
   const MethodPilot pilot(tracer, arms, frame, options.timed);
   ArmFigures figures(arms.size());
-  const double paths_per_tile = 2.0 * arms.size() * frame.places() / frame.tiles();
   const FrameTurns turns(frame.tiles(), kTilesPerTurn, kMaxRounds,
-                         double(options.max_paths) / paths_per_tile);
-  if (turns.count() == 0) return false;
+                         affordable / double(arms.size()));
   std::vector<std::vector<TileSums>> tiles(kTilesPerTurn);
   for (int turn = 0; turn < turns.count() && (turn == 0 || !stop()); ++turn) {
     parallel_for(turns.tiles(turn), [&](size_t i) {

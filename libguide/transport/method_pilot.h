@@ -25,8 +25,8 @@ struct MethodPilotOptions {
 // each. The variance of an arm is that between two paths of a pixel, with single bright paths held,
 // and at least what its difference from the first arm tells: paths that are found once in N have at
 // least N times their part of the mean, squared, as second moment, also while none has been found.
-// Equal at any thread count unless timed or stopped. False where not even one round could be
-// traced.
+// Where the paths do not reach for one look of all arms over the frame, the last ones are dropped;
+// false where they do not reach for two. Equal at any thread count unless timed or stopped.
 bool measure(const PathTracer& tracer, std::vector<PilotArm>& arms, const PilotFrame& frame,
              const MethodPilotOptions& options, const std::function<bool()>& stop);
 

@@ -135,7 +135,7 @@ bool PathTracer::visit(Walk& walk, State& state, const MediumPoint& at) const {
   const PhaseSampler directions(at.medium->phase(), -state.ray.direction,
                                 guides.empty() ? nullptr : &guides.at(at.index, at.p),
                                 guides.empty() ? nullptr : &guides.phase(at.index),
-                                options_.phases);
+                                options_.phases.for_medium(at.medium->homogeneous()));
   if (state.edges == 1) {
     walk.record.albedo = at.albedo;
     walk.record.depth = at.t;

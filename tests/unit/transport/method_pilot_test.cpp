@@ -88,5 +88,19 @@ TEST(MethodPilot, TooFewPathsSayNothing) {
   EXPECT_FALSE(measure(box.tracer, arms, box.frame, options, kNever));
 }
 
+// 192 tiles of 16 places, 32 a turn and two paths a place: 1024 for one arm.
+TEST(MethodPilot, FewPathsDropTheLastArms) {
+  const Box box;
+  MethodPilotOptions options;
+  for (const auto& [paths, left] : {std::pair{1024, 0}, {2048, 2}, {4000, 3}, {100'000, 6}}) {
+    std::vector<PilotArm> arms(6, {{"same"}, box.options});
+    options.max_paths = paths;
+    EXPECT_EQ(measure(box.tracer, arms, box.frame, options, kNever), left > 0) << paths;
+    if (left > 0) {
+      EXPECT_EQ(arms.size(), size_t(left)) << paths;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace waylight
