@@ -18,11 +18,11 @@ constexpr double kLeastGain = 0.01;
 // less a margin: where the comparison is sure to a tenth no rare paths hide, and guiding that does
 // not pay is switched off; where it is not, switching off what does pay may cost ten times the
 // error.
-constexpr double kCertainty = 3, kPlainCertainty = 2, kPlainMargin = 0.1;
+constexpr double kCertainty = 3, kPlainMargin = 0.1;
 
 // Where fewer scatterings than this have a guide, nothing is guided unless that is surely worse:
 // what so few can gain has to pay the lookups of all others. Behind a closed door it is 2 %, beside
-// a thin wall 13 %, where guiding pays at least 40 %.
+// a thin wall 13 %; where guiding pays, it is at least 40 %.
 constexpr double kRarelyGuided = 0.25;
 constexpr int kProbePaths = 128;
 
@@ -42,6 +42,8 @@ constexpr Alternative kResampling = {"ris", Decision::surfaces, [](PathTracerOpt
                                      }};
 constexpr Alternative kLight = {"without product", Decision::surfaces,
                                 [](PathTracerOptions& o) { o.directions.light_alone = true; }};
+constexpr Alternative kSurfaces = {"bsdf on surfaces", Decision::surfaces,
+                                   [](PathTracerOptions& o) { o.directions = {}; }};
 constexpr Alternative kPhase = {"phase function", Decision::directions,
                                 [](PathTracerOptions& o) { o.phases.guide = PhaseGuide::none; }};
 constexpr Alternative kDistance = {"standard distances", Decision::distances,
@@ -70,15 +72,19 @@ bool begins_by_throughput(const Scene& scene, const GuidingCaches& caches,
          has_media(scene, false);
 }
 
-// What the options leave open, and the caches make possible. A short pilot gets to the first alone.
+// What the options leave open, and the caches make possible. A short pilot gets
+// to the first of these only.
 std::vector<Alternative> alternatives(const Scene& scene, const GuidingCaches& caches,
-                                      const RenderOptions& options) {
+                                      const RenderOptions& options, const AutoDecision& cells) {
+  const bool chosen = cells.cells_bsdf + cells.cells_illumination + cells.cells_product > 0;
+  const bool may_use_product = caches.has_fits() && (cells.cells_product > 0 || !chosen);
   std::vector<Alternative> open;
   if (options.roulette == RouletteMode::automatic)
     open.push_back(begins_by_throughput(scene, caches, options) ? kGuidedRoulette : kRoulette);
   if (caches.guided()) open.push_back(kResampling);
-  if (caches.guided() && caches.has_fits()) open.push_back(kLight);
+  if (caches.guided() && may_use_product) open.push_back(kLight);
   if (caches.media().empty()) return open;
+  if (caches.guided()) open.push_back(kSurfaces);
   if (options.direction == PhaseMode::automatic) open.push_back(kPhase);
   if (options.distance != DistanceMode::automatic) return open;
   if (has_media(scene, true)) open.push_back(kDistance);
@@ -198,14 +204,15 @@ class Verdict {
   }
 
  private:
-  // The logarithm of a ratio of variance times cost.
+  // The logarithm of a ratio of variance times cost; none where one of the two found no light.
   double gain(size_t arm) const {
-    return std::log(arms_[0].figures.inefficiency() / arms_[arm].figures.inefficiency());
+    const double first = arms_[0].figures.inefficiency(), other = arms_[arm].figures.inefficiency();
+    return first > 0 && other > 0 ? std::log(first / other) : 0;
   }
   double least_gain_of_plain(double best) const {
     const double uncertainty = arms_[1].figures.uncertainty;
-    if (rare_) return best - kPlainCertainty * uncertainty;
-    return std::max(best, kPlainCertainty * (uncertainty - kPlainMargin));
+    if (rare_) return best - kCertainty * uncertainty;
+    return std::max(best, kCertainty * (uncertainty - kPlainMargin));
   }
   std::optional<size_t> best_change(Decision of) const {
     std::optional<size_t> best;
@@ -240,7 +247,7 @@ PathTracerOptions choose_method(const Scene& scene, const SensorDescription& sen
   guiding.learned(std::move(choices));
   everything.directions.learned = true;
 
-  const std::vector<Alternative> open = alternatives(scene, guiding, options);
+  const std::vector<Alternative> open = alternatives(scene, guiding, options, *decision);
   std::vector<PilotArm> arms = {{{"guided"}, everything}, {{"bsdf"}, plain(options, everything)}};
   for (const Alternative& change : open) arms.push_back(arm_of(change, everything));
   const size_t otherwise = rare ? 1 : 0;

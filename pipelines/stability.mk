@@ -4,6 +4,7 @@
 #   make -f pipelines/stability.mk fast -j2    small images, few seeds, no judgement of time: always
 #                                              the same table
 #   make -f pipelines/stability.mk CASES='few-photons closed-door'
+#   make -f pipelines/stability.mk auto        what mode auto costs over bsdf and over the best method
 #
 # It fails when a verdict does that pipelines/stability/known does not list. Each case is a folder of
 # results; it runs again when its line in pipelines/stability/cases, its scene or a tool changes.
@@ -74,7 +75,7 @@ methods := $(call rows_of,surfaces,surface_methods) $(call rows_of,splitting,spl
   $(call rows_of,media,medium_methods) 'tests tests -' \
   $(foreach f,em ceres best,'fits $(f) - --fit $(f)')
 
-.PHONY: all fast clean FORCE
+.PHONY: all fast auto clean FORCE
 all fast: $(OUT)/table.txt $(OUT)/table.csv $(OUT)/stability.html
 	@cat $(OUT)/table.txt
 	@jq -e 'all(.status != "fail")' $(OUT)/table.json > /dev/null
@@ -116,6 +117,11 @@ $(OUT)/table.txt: $(OUT)/table.json $(STABILITY)/text.jq
 	@jq -rf $(STABILITY)/text.jq $< > $@.tmp && mv $@.tmp $@
 $(OUT)/stability.html: $(OUT)/table.json $(STABILITY)/page.jq
 	@jq -rf $(STABILITY)/page.jq $< > $@.tmp && mv $@.tmp $@
+
+auto: $(OUT)/auto.md
+	@cat $<
+$(OUT)/auto.md: $(OUT)/table.json $(STABILITY)/auto.jq
+	@jq -rf $(STABILITY)/auto.jq $< > $@.tmp && mv $@.tmp $@
 
 clean:
 	rm -rf $(OUT)

@@ -9,8 +9,8 @@ namespace waylight {
 
 // Where the photons of a cell are, but for one or two that strayed: they are dealt out to eight
 // groups, and on each side the box ends where the third of these does. So it keeps what three
-// groups met, whatever the number of photons, and lacks about 3 / n of the extent of n that are
-// spread evenly.
+// groups met, whatever the number of photons, and lacks about 3.5 / n of the extent of n that are
+// spread evenly, on each side.
 class PhotonExtent {
  public:
   void add(const Vec3& position) { groups_[count_++ % kGroups].extend(position); }

@@ -26,8 +26,9 @@ constexpr float kOwnAreaPhotons = 32;
 // Photons that tell on which side of a surface a new cell lies.
 constexpr float kOwnSidePhotons = 8;
 
-// Photons that tell how far a cell reaches: no further than their box and a share of its radius,
-// and than so many standard deviations from their mean and a little, since surfaces are flat.
+// Photons that tell how far a cell reaches: no further than their box (of all but strays) and a
+// share of its radius, and than so many standard deviations from their mean and a little, since
+// surfaces are flat.
 constexpr uint32_t kOwnExtentPhotons = 64;
 constexpr float kRoom = 0.25f, kDeviations = 3, kThickness = 0.01f;
 
@@ -35,6 +36,16 @@ constexpr float kRoom = 0.25f, kDeviations = 3, kThickness = 0.01f;
 float weight_of(const Photon& photon, float emitted) {
   const float power = luminance(photon.power);
   return photon.from == TracedFrom::lights ? power * emitted : power;
+}
+
+// The half of a box that a child has; flat where the box, which leaves out strays, ends before the
+// split.
+Bounds half_of(Bounds box, const CellSplit& split, bool upper) {
+  float &lower_end = box.min[split.axis], &upper_end = box.max[split.axis];
+  (upper ? lower_end : upper_end) = split.value;
+  if (upper) upper_end = std::max(upper_end, split.value);
+  if (!upper) lower_end = std::min(lower_end, split.value);
+  return box;
 }
 
 bool drops(const Photon& photon, const CellTrainingOptions& options) {
@@ -184,21 +195,20 @@ TrainingCell TrainingCell::child(const CellSplit& split, bool upper, double now,
   child.training_.inherited_area = static_cast<float>(std::max(photon_area(training_), min_area));
   child.inherited_ = extent();
   if (split.by_normal()) return child;
-  (upper ? child.inherited_.min : child.inherited_.max)[split.axis] = split.value;
+  child.inherited_ = half_of(extent(), split, upper);
   inherit_irradiance(child.training_, now, min_area);
   child.evidence_ = evidence_.share(std::min(0.5, kInheritedPhotons / training_.count));
   child.inherit_as_child(*this, options);
   return child;
 }
 
-// The box of n photons lacks about 1 / n of what they are spread over.
 Bounds TrainingCell::extent() const {
   if (own_.count() >= kOwnExtentPhotons) return own_.box();
   return inherited_;
 }
 
-// Where most photons of a cell lie in front of a wall and a few stray ones behind it, their box
-// goes through the wall, but their standard deviations hardly do.
+// Where most photons of a cell lie in front of a wall and more than two stray ones behind it, their
+// box goes through the wall, but their standard deviations hardly do.
 CellReach TrainingCell::reach() const {
   if (united_) return *united_;
   const Bounds box = extent();

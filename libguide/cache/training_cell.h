@@ -41,7 +41,7 @@ struct GaussianLobes {
                      std::span<ComponentStatistics> statistics, size_t count, size_t wanted);
 };
 
-// About 1.8 KiB; the memory of the training is this per cell and nothing per photon.
+// About 1.9 KiB; the memory of the training is this per cell and nothing per photon.
 class TrainingCell : private OnlineMixture<GaussianLobes> {
  public:
   TrainingCell() = default;
@@ -97,7 +97,7 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   float irradiance(double now, double min_area, double photons_per_particle) const;
 
   const Vec3& centre() const { return training_.position_mean; }
-  Bounds lit() const;  // the box of its photons within its reach
+  Bounds lit() const;  // the box of its photons, but for strays, within its reach
   // Of its own photons once there are enough, and of those of the cells that it was made from.
   CellReach reach() const;
   // When the cell was made, in photons of the whole training.

@@ -1,5 +1,10 @@
 #include "libguide/guiding/equiangular_range.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "libguide/base/random_stream.h"
+
 namespace waylight {
 namespace {
 

@@ -3,7 +3,8 @@
 namespace waylight {
 namespace {
 
-constexpr float kFaintDepth = 14;  // e^-14 of the light is left: a millionth
+constexpr float kRounding = 1e-6f;  // of the ends of bins
+constexpr float kFaintDepth = 14;   // e^-14 of the light is left: a millionth
 
 struct Stretch {
   float t0 = 0, t1 = 0, density = 0;
@@ -78,12 +79,15 @@ void FlightBins::lay_out(const FlightSpace& space, Cells& cells) {
 // A cell that is not known takes after the one before.
 void FlightBins::look_up(const FlightSpace& space, const Cells& cells) {
   const int looking = space.guides.bins(space.index).of(space.ray.direction);
-  float scattered = 0;
+  float scattered = 0, from_emitters = 0;
   for (int i = 0; i < count; ++i) {
     const float known = space.guides.scattered(space.index, cells[i], looking);
-    if (known >= 0) scattered = known;
+    if (known >= 0) {
+      scattered = known;
+      from_emitters = space.guides.direct_share(cells[i]);
+    }
     source[i] = luminance(space.medium.albedo_at(space.ray(start[i]))) * scattered;
-    direct[i] = space.guides.direct_share(cells[i]);
+    direct[i] = from_emitters;
   }
   if (count == 0) return;
   const MediumGuide& last = space.guides.guide(space.index, cells[count - 1]);
@@ -96,9 +100,9 @@ void FlightBins::pad() {
 }
 
 int FlightBins::find(float t) const {
-  for (int i = 0; i < count; ++i)
-    if (t >= start[i] && t < start[i] + length[i]) return i;
-  return -1;
+  int i = count - 1;
+  while (i >= 0 && t < start[i]) --i;
+  return i >= 0 && t <= (start[i] + length[i]) * (1 + kRounding) ? i : -1;
 }
 
 }  // namespace waylight

@@ -44,12 +44,12 @@ void GuidedFlight::weigh(float standard_share) {
   standard_ = knows ? standard_share : 1;
   guided_ = knows ? (1 - standard_share) / total : 0;
   pass_ = passed * (standard_ + guided_ * bins_.end_radiance);
-  direct_mass_ = lanes_sum(direct);
+  direct_share_ = knows ? guided_ * lanes_sum(direct) : 0;
 }
 
 void GuidedFlight::aim_at(const Vec3& light) {
   near_light_ = EquiangularRange(space_, bins_.sigma, light);
-  aimed_ = near_light_.angle() * (1 / kPi);
+  aimed_ = near_light_.empty() ? 0 : near_light_.angle() * (1 / kPi);
 }
 
 float GuidedFlight::standard_mass(const Process& process, int bin) const {

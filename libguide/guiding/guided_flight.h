@@ -36,8 +36,9 @@ class GuidedFlight {
   float pdf(float t) const;  // per unit length
   float pass_prob() const { return pass_; }
 
-  // Of all flights, those guided by light straight from emitters.
-  float direct_share() const { return guided_ * direct_mass_; }
+  // Of all flights, those guided by light straight from emitters, as far as its share in the
+  // fluence of cells is that in what they scatter.
+  float direct_share() const { return direct_share_; }
   // Gives a part of them to the point of a light. Given any one, the flight is unbiased.
   void aim_at(const Vec3& light);
 
@@ -65,9 +66,9 @@ class GuidedFlight {
   std::array<Process, 3> processes_;
   float standard_ = 1, guided_ = 0;  // what is added, by the factor, in a bin
   float pass_ = 1;
-  float direct_mass_ = 0;  // of guided flights, before their factor
+  float direct_share_ = 0;
   EquiangularRange near_light_;
-  float aimed_ = 0;                   // the part of those flights that it has, in [0, 1]
+  float aimed_ = 0;                   // the part of direct_share_ that near_light_ has, in [0, 1]
   alignas(32) FlightBins::Row mass_;  // of the standard processes in each bin
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 // The directional decision of one vertex in a medium: phase function or guide.
 
+#include <algorithm>
+
 #include "libguide/directional/vmf_product.h"
 #include "libguide/guiding/direction_sampler.h"
 #include "libguide/guiding/medium_guides.h"
@@ -16,8 +18,9 @@ struct PhaseOptions {
   PhaseGuide guide = PhaseGuide::none;
   float phase_share = 0.25f;  // of sampling the phase function where there is a guide, in (0, 1]
 
-  // Cells are coarse for what is in a grid: with less of the phase function, a few bright paths are
-  // half of the noise of a thin cloud. Dense ones lose a tenth.
+  // The same, with half or more for the phase function in grids. Cells are coarse for what is in
+  // them: with a quarter, a few bright paths are half of the noise of a thin cloud. It gains a
+  // tenth in dense ones.
   PhaseOptions for_medium(bool homogeneous) const {
     constexpr float kShareInGrids = 0.5f;
     return {guide, homogeneous ? phase_share : std::max(phase_share, kShareInGrids)};

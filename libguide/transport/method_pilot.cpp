@@ -91,8 +91,9 @@ class Missed {
     squares_ += told * told;
     ++count_;
   }
-  // As far as it is more than chance: two standard errors less.
+  // As far as it is more than chance: two standard errors less. One value alone has none.
   double variance() const {
+    if (count_ < 2) return 0;
     const double mean = sum_ / count_, spread = squares_ / count_ - mean * mean;
     return mean - 2 * std::sqrt(std::max(spread, 0.0) / count_);
   }
@@ -198,17 +199,15 @@ class ArmFigures {
 bool measure(const PathTracer& tracer, std::vector<PilotArm>& arms, const PilotFrame& frame,
              const MethodPilotOptions& options, const std::function<bool()>& stop) {
   const double paths_per_tile = 2.0 * frame.places() / frame.tiles();  // of one arm
-  const double affordable = double(options.max_paths) / paths_per_tile;
-  const size_t most =
-      FrameTurns(frame.tiles(), kTilesPerTurn, int(arms.size()), affordable).count();
-  if (most < 2) return false;
-  arms.resize(std::min(arms.size(), most));
+  const FrameTurns turns(frame.tiles(), kTilesPerTurn, kMaxRounds * int(arms.size()),
+                         double(options.max_paths) / paths_per_tile);
+  if (turns.count() < 2) return false;
+  arms.resize(std::min(arms.size(), size_t(turns.count())));
+  const int turns_of_each = turns.count() / int(arms.size());
   const MethodPilot pilot(tracer, arms, frame, options.timed);
   ArmFigures figures(arms.size());
-  const FrameTurns turns(frame.tiles(), kTilesPerTurn, kMaxRounds,
-                         affordable / double(arms.size()));
   std::vector<std::vector<TileSums>> tiles(kTilesPerTurn);
-  for (int turn = 0; turn < turns.count() && (turn == 0 || !stop()); ++turn) {
+  for (int turn = 0; turn < turns_of_each && (turn == 0 || !stop()); ++turn) {
     parallel_for(turns.tiles(turn), [&](size_t i) {
       tiles[i] = pilot.trace_tile(turns.tile(turn, int(i)), turns.round(turn));
     });

@@ -396,7 +396,8 @@ TEST(CacheTrain, GuidesNothingWhereNoPhotonCame) {
   EXPECT_EQ(view.query({10 * kFloor, 0, 0}, Vec3::UnitZ()), nullptr);
 }
 
-// One photon in a hundred strays to the far end of a corridor, which the box of the cell then holds.
+// One photon in a hundred strays to the far end of a corridor, which the box of the cell then
+// holds.
 TEST(CacheTrain, AFewStrayPhotonsDoNotWidenTheReach) {
   std::vector<Photon> photons = floor_photons(4000);
   for (size_t i = 0; i < photons.size(); i += 100) photons[i].position.x() += 10 * kFloor;
@@ -409,6 +410,22 @@ TEST(CacheTrain, AFewStrayPhotonsDoNotWidenTheReach) {
   const GuideCacheView view(cache);
   EXPECT_NE(view.query({0.5f * kFloor, 0, 0}, Vec3::UnitZ()), nullptr);
   EXPECT_EQ(view.query({8 * kFloor, 0, 0}, Vec3::UnitZ()), nullptr);
+}
+
+// The cell is split at the mean height of its photons, which is above all but the two.
+TEST(CacheTrain, TwoStrayPhotonsHighUpLeaveEveryCellAReach) {
+  std::vector<Photon> photons = floor_photons(100'000);
+  for (const size_t i : {1000, 3000}) photons[i].position.z() += 200 * kFloor;
+  PhotonStreamInfo info = floor_info(100'000);
+  info.scene_bounds.extend(Vec3(0, 0, 300 * kFloor));
+  CacheTrainOptions options;
+  options.photons_per_cell = 1000;
+  const GuideCache cache = train(photons, info, options);
+  ASSERT_GT(cache.cells.size(), 1u);
+  for (const CellReach& reach : cache.reaches) {
+    EXPECT_TRUE(reach.min.allFinite() && reach.max.allFinite());
+    EXPECT_TRUE((reach.min.array() < reach.max.array()).all());
+  }
 }
 
 TEST(CacheTrain, ReachesOfAFinishedTrainingGoOn) {

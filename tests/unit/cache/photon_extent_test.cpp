@@ -37,8 +37,11 @@ TEST(PhotonExtent, LeavesOutTwoStrayPhotonsOnEachSideAndNoMore) {
   }
   EXPECT_LE(extent.box().max.x(), 1);
   EXPECT_GE(extent.box().min.y(), 0);
-  for (int more = 0; more < 8; ++more) extent.add({5, 0.5f, 0.5f});
+  extent.add({5, 0.5f, 0.5f});
   EXPECT_EQ(extent.box().max.x(), 5);
+  EXPECT_GE(extent.box().min.y(), 0);
+  extent.add({0.5f, -5, 0.5f});
+  EXPECT_EQ(extent.box().min.y(), -5);
 }
 
 TEST(PhotonExtent, IsEmptyBeforeEachGroupHasAPhoton) {

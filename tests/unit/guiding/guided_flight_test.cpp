@@ -72,6 +72,24 @@ TEST(GuidedFlight, AimedAtALampOnlyWhereTheCellsHaveItsLight) {
   EXPECT_EQ(aimed.pdf(1.1f), before);
 }
 
+TEST(GuidedFlight, AimedAtALightOnTheRayOrAlongEndlessOnesIsFiniteAndUnbiased) {
+  for (const Color& sigma : {Color(0.1f, 1, 8), Color(0, 1, 2), Color(0, 0, 0)})
+    for (const float end : {kEnd, kInfinity})
+      for (const Vec3& light : {kBeside, kThrough(1.2f), kThrough(-1)}) {
+        const FlightFixture fixture({"fog", homogeneous(sigma, Color::Ones())});
+        const FlightSpace space = fixture.space(end);
+        GuidedFlight flight(space, {0.5f});
+        flight.aim_at(light);
+        Color sum = Color::Zero();
+        constexpr int kFlights = 1 << 14;
+        for (int i = 0; i < kFlights; ++i) {
+          Sampler sampler(5, 6, i);
+          sum += flight.sample(sampler).weight / kFlights;
+        }
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(sum[k], 1, 0.04) << sigma.transpose() << end;
+      }
+}
+
 TEST(GuidedFlight, ScattersWhereTheLightIsAndPassesWhereItIsNot) {
   const FlightFixture fixture({"grey fog", homogeneous(Color::Constant(0.2f), Color::Ones())});
   const FlightSpace space = fixture.space();

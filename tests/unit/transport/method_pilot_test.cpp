@@ -93,11 +93,14 @@ TEST(MethodPilot, FewPathsDropTheLastArms) {
   const Box box;
   MethodPilotOptions options;
   for (const auto& [paths, left] : {std::pair{1024, 0}, {2048, 2}, {4000, 3}, {100'000, 6}}) {
-    std::vector<PilotArm> arms(6, {{"same"}, box.options});
+    std::vector<PilotArm> arms;
+    for (const char* name : {"a", "b", "c", "d", "e", "f"}) arms.push_back({{name}, box.options});
     options.max_paths = paths;
     EXPECT_EQ(measure(box.tracer, arms, box.frame, options, kNever), left > 0) << paths;
     if (left > 0) {
-      EXPECT_EQ(arms.size(), size_t(left)) << paths;
+      ASSERT_EQ(arms.size(), size_t(left)) << paths;
+      EXPECT_EQ(arms.back().figures.name, std::string(1, char('a' + left - 1)));
+      EXPECT_GT(arms.back().figures.inefficiency(), 0);
     }
   }
 }

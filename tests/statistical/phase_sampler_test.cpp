@@ -1,0 +1,51 @@
+// The guided density of a vertex in a medium is what its sampler makes.
+
+#include "libguide/guiding/phase_sampler.h"
+
+#include "common/flight_cases.h"
+#include "statistical/density_assertions.h"
+
+namespace waylight {
+namespace {
+
+using testing::DensityCheck;
+using testing::FlightFixture;
+using testing::homogeneous;
+
+// In the cell where light comes towards -x, of vertices that the path reached in three directions.
+void expect_valid_densities(float g, const PhaseOptions& options, const std::string& name) {
+  const FlightFixture fixture({name, homogeneous(Color::Ones(), Color::Ones(), g)});
+  const MediumGuide& guide = fixture.guides.guide(0, 1);
+  DensityCheck check;
+  check.tests = 36;
+  for (const Vec3& wo : {Vec3(0, 0, 1), Vec3(-1, 0, 0), Vec3(0.6f, 0.64f, -0.48f)}) {
+    const PhaseSampler phase(fixture.medium.phase(), wo, &guide, &fixture.guides.phase(0), options);
+    EXPECT_TRUE(phase.guided());
+    testing::expect_valid_density(
+        testing::Sphere{}, name,
+        [&](Sampler& sampler) -> std::optional<Vec3> {
+          const std::optional<DirectionSample> s = phase.sample(sampler);
+          return s ? std::optional<Vec3>(s->wi) : std::nullopt;
+        },
+        [&](const Vec3& wi) { return phase.pdf(wi); }, check);
+  }
+}
+
+TEST(PhaseSampler, DensityIsThatOfTheSamples) {
+  for (const float g : {0.0f, 0.5f, -0.8f})
+    for (const PhaseGuide guide : {PhaseGuide::mixture, PhaseGuide::product})
+      for (const bool is_homogeneous : {true, false})
+        expect_valid_densities(g, PhaseOptions{guide}.for_medium(is_homogeneous),
+                               "g " + std::to_string(g) + " guide " +
+                                   std::to_string(static_cast<int>(guide)) +
+                                   (is_homogeneous ? " homogeneous" : " grid"));
+}
+
+TEST(PhaseSampler, GridsHaveAtLeastHalfOfThePhaseFunction) {
+  EXPECT_EQ(PhaseOptions{PhaseGuide::product}.for_medium(true).phase_share, 0.25f);
+  EXPECT_EQ(PhaseOptions{PhaseGuide::product}.for_medium(false).phase_share, 0.5f);
+  EXPECT_EQ((PhaseOptions{PhaseGuide::mixture, 0.75f}.for_medium(false).phase_share), 0.75f);
+}
+
+}  // namespace
+}  // namespace waylight
