@@ -8,6 +8,7 @@
 #include "libguide/cache/escape_histogram.h"
 #include "libguide/cache/guide_cache_view.h"
 #include "libguide/cache/photon_rules.h"
+#include "libguide/cache/refit_tree.h"
 #include "libguide/cache/training_check.h"
 
 namespace waylight {
@@ -80,6 +81,7 @@ struct CacheTrainer::Impl {
   void consume(std::span<const Photon> photons) { surfaces_.consume(photons); }
   void consume(std::span<const MediumPhoton> photons);
   void consume(std::span<const Escape> escapes);
+  void refine(std::span<const Photon> photons);
   GuideCache finish(CacheTrainSummary* summary);
 
  private:
@@ -97,6 +99,7 @@ struct CacheTrainer::Impl {
   uint64_t emitted_;             // particles of the stream
   double expected_photons_ = 0;  // of the whole training when it is done; 0: not known
   BlockTrainer<Photon, TrainingTree, SurfaceRules> surfaces_;
+  std::optional<BlockTrainer<Photon, RefitTree, SurfaceRules>> refit_;  // once that has begun
   BlockTrainer<MediumPhoton, MediumTree, MediumRules> media_;
   EscapeMap escape_map_;
   EscapeHistogram escapes_;
@@ -182,6 +185,14 @@ void CacheTrainer::Impl::consume(std::span<const Escape> escapes) {
   }
 }
 
+void CacheTrainer::Impl::refine(std::span<const Photon> photons) {
+  if (!refit_) {
+    surfaces_.finish();
+    refit_.emplace(RefitTree(surfaces_.tree()), surfaces_.rules(), 0);
+  }
+  refit_->consume(photons);
+}
+
 GuideCache CacheTrainer::Impl::finish(CacheTrainSummary* summary) {
   finish_surfaces();
   finish_media();
@@ -191,7 +202,10 @@ GuideCache CacheTrainer::Impl::finish(CacheTrainSummary* summary) {
 }
 
 void CacheTrainer::Impl::finish_surfaces() {
-  surfaces_.finish();
+  if (refit_)
+    refit_->finish();
+  else
+    surfaces_.finish();
   cache_.photons = surfaces_.photons();
   clock_.photons = static_cast<double>(cache_.photons);
   clock_.particles = static_cast<double>(cache_.emitted);
@@ -224,44 +238,6 @@ void CacheTrainer::Impl::finish_media() {
   tree.store(medium, media_.rules().cell, medium_clock_.photons / medium_clock_.particles);
 }
 
-namespace {
-
-MediumTrainSummary summary_of(const MediumCache& medium, const BlockTally& tally) {
-  MediumTrainSummary s;
-  s.photons = tally.photons;
-  s.rejected = tally.rejected;
-  s.weights_capped = tally.weights_capped;
-  s.cells = medium.cells.size();
-  for (const MediumCell& cell : medium.cells) {
-    s.indirect.add(cell.indirect);
-    s.direct.add(cell.direct);
-  }
-  return s;
-}
-
-void count_cells(const GuideCache& cache, CacheTrainSummary& summary) {
-  for (const CacheCell& cell : cache.cells) {
-    if (cell.component_count == 0) continue;
-    ++summary.cells_with_mixture;
-    summary.mean_components += cell.component_count;
-    summary.mean_effective_samples += cell.effective_samples;
-    summary.lost_mass += std::max(0.0f, 1 - cell.guided_mass);
-  }
-  const double mixtures = std::max<double>(1, static_cast<double>(summary.cells_with_mixture));
-  summary.mean_components /= mixtures;
-  summary.mean_effective_samples /= mixtures;
-  summary.lost_mass /= mixtures;
-}
-
-}  // namespace
-
-void MediumLightSummary::add(const MediumLight& light) {
-  if (light.component_count == 0) return;
-  const double n = static_cast<double>(++cells_with_mixture);
-  mean_components += (light.component_count - mean_components) / n;
-  mean_effective_samples += (light.effective_samples - mean_effective_samples) / n;
-}
-
 void CacheTrainer::Impl::summarise(CacheTrainSummary& summary) const {
   const BlockTally& tally = surfaces_.tally();
   summary = {};
@@ -270,12 +246,14 @@ void CacheTrainer::Impl::summarise(CacheTrainSummary& summary) const {
   summary.rejected = tally.rejected + escape_tally_.rejected;
   summary.dropped_direct = tally.dropped_direct + escape_tally_.dropped_direct;
   summary.weights_capped = tally.weights_capped;
-  summary.cells = cache_.cells.size();
+  summary.count_cells(cache_);
+  summary.mixtures_refitted = refit_ ? refit_->tree().refitted() : 0;
   summary.cells_before_merging = cells_before_merging_;
   summary.bytes_saved = bytes_saved_;
   summary.cells_made = cells_before_merging_ - cells_before_;
-  count_cells(cache_, summary);
-  if (!cache_.medium.cells.empty()) summary.media = summary_of(cache_.medium, media_.tally());
+  summary.media.photons = media_.tally().photons;
+  summary.media.rejected = media_.tally().rejected;
+  summary.media.weights_capped = media_.tally().weights_capped;
   summary.bytes = surfaces_.tree().bytes();
   summary.media.cells_before_merging = medium_cells_before_merging_;
   if (!cache_.medium.cells.empty()) summary.media.bytes = media_.tree().bytes();
@@ -294,6 +272,7 @@ CacheTrainer::~CacheTrainer() = default;
 void CacheTrainer::consume(std::span<const Photon> batch) { running(impl_).consume(batch); }
 void CacheTrainer::consume(std::span<const MediumPhoton> batch) { running(impl_).consume(batch); }
 void CacheTrainer::consume(std::span<const Escape> batch) { running(impl_).consume(batch); }
+void CacheTrainer::refine(std::span<const Photon> batch) { running(impl_).refine(batch); }
 
 GuideCache CacheTrainer::finish(CacheTrainSummary* summary) {
   const std::unique_ptr<Impl> impl = std::move(impl_);

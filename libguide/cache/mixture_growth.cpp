@@ -39,15 +39,6 @@ GaussianComponent split_off(GaussianComponent& c) {
 
 }  // namespace
 
-ComponentStatistics statistics_of(const GaussianComponent& c) {
-  return {c.weight,
-          c.weight * c.mean_x,
-          c.weight * c.mean_y,
-          c.weight * c.cov_xx,
-          c.weight * c.cov_xy,
-          c.weight * c.cov_yy};
-}
-
 size_t grow_mixture(std::span<GaussianComponent> components,
                     std::span<ComponentStatistics> statistics, size_t count, size_t wanted) {
   if (count == 0) return 0;

@@ -2,12 +2,9 @@
 
 #include <span>
 
-#include "libguide/records/guide_cache.h"
+#include "libguide/directional/expectation_maximization.h"
 
 namespace waylight {
-
-// The statistics whose maximum-likelihood M-step gives a component.
-ComponentStatistics statistics_of(const GaussianComponent& component);
 
 // EM only ever loses components. Splits those that spread their mass most, weight times largest
 // eigenvalue, until there are `wanted`; the arrays have that much room. Each split keeps weight,

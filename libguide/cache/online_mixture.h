@@ -94,6 +94,8 @@ class OnlineMixture {
   void forget();
   // Adds the evidence of a mixture that learned from photons of the same light.
   void add_evidence(const OnlineMixture& other);
+  // Photons, the sum of their weights and that of the squares.
+  void state_evidence(double photons, double sum, double sum2);
   // Statistics begin anew from the components: the next M-step gives the same ones again.
   void replace_mixture(std::span<const Component> components);
 
@@ -245,6 +247,15 @@ void OnlineMixture<Lobes>::replace_mixture(std::span<const Component> components
   std::vector<Statistics> statistics;
   for (const Component& c : components) statistics.push_back(statistics_of(c));
   set_mixture(components, statistics);
+}
+
+template <typename Lobes>
+void OnlineMixture<Lobes>::state_evidence(double photons, double sum, double sum2) {
+  record_.photon_count = static_cast<float>(photons);
+  training_.weight_sum = sum;
+  training_.weight_sum2 = sum2;
+  weigh_evidence();
+  training_.samples = record_.effective_samples;
 }
 
 template <typename Lobes>

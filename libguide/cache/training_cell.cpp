@@ -9,6 +9,7 @@
 #include "libguide/cache/mixture_growth.h"
 #include "libguide/directional/em_step.h"
 #include "libguide/directional/frame_carry.h"
+#include "libguide/directional/mixture_refinement.h"
 #include "libguide/math/frame.h"
 #include "libguide/math/warp.h"
 
@@ -32,6 +33,11 @@ constexpr float kOwnSidePhotons = 8;
 constexpr uint32_t kOwnExtentPhotons = 64;
 constexpr float kRoom = 0.25f, kDeviations = 3, kThickness = 0.01f;
 
+// Photons that a mixture is fitted to again, at least, and at least this share of those that it has
+// learned from, what it inherited included: a cell in the dark keeps what its parent knew.
+constexpr size_t kRefitPhotons = 64;
+constexpr double kRefitShare = 0.5;
+
 // Of photons as CellTraining has it, W; of what camera paths found, W/m^2.
 float weight_of(const Photon& photon, float emitted) {
   const float power = luminance(photon.power);
@@ -41,10 +47,10 @@ float weight_of(const Photon& photon, float emitted) {
 // The half of a box that a child has; flat where the box, which leaves out strays, ends before the
 // split.
 Bounds half_of(Bounds box, const CellSplit& split, bool upper) {
-  float &lower_end = box.min[split.axis], &upper_end = box.max[split.axis];
-  (upper ? lower_end : upper_end) = split.value;
-  if (upper) upper_end = std::max(upper_end, split.value);
-  if (!upper) lower_end = std::min(lower_end, split.value);
+  float& inner = upper ? box.min[split.axis] : box.max[split.axis];
+  float& outer = upper ? box.max[split.axis] : box.min[split.axis];
+  inner = split.value;
+  outer = upper ? std::max(outer, inner) : std::min(outer, inner);
   return box;
 }
 
@@ -120,6 +126,30 @@ size_t TrainingCell::flush(const CellTrainingOptions& options) {
 bool TrainingCell::guides(const Photon& photon, const CellTrainingOptions& options) const {
   if (drops(photon, options) || is_black(photon.power)) return false;
   return training_.step == 0 || photon.normal.dot(record_.normal) >= kMinNormalCosine;
+}
+
+std::optional<WeightedPoint> TrainingCell::point_of(const Photon& photon, float emitted,
+                                                    const CellTrainingOptions& options) const {
+  if (training_.step == 0 || !guides(photon, options)) return std::nullopt;
+  const float factor = options.mixes ? evidence_.factor(photon.from) : 1;
+  return WeightedPoint{direction_to_disk(Frame(record_.normal).to_local(photon.direction)),
+                       weight_of(photon, emitted) * factor};
+}
+
+bool TrainingCell::fit_again(const PhotonSample<WeightedPoint>& photons,
+                             const CellTrainingOptions& options) {
+  const std::vector<WeightedPoint>& kept = photons.kept();
+  if (kept.size() < kRefitPhotons || photons.seen() < kRefitShare * record_.photon_count)
+    return false;
+  replace_mixture(refine_mixture(kept, components(), options.components, options.prior));
+  double sum = 0, sum2 = 0;
+  for (const WeightedPoint& point : kept) {
+    sum += point.weight;
+    sum2 += double{point.weight} * point.weight;
+  }
+  const double per_kept = photons.seen() / static_cast<double>(kept.size());
+  state_evidence(photons.seen(), sum * per_kept, sum2 * per_kept);
+  return true;
 }
 
 size_t TrainingCell::update(const CellTrainingOptions& options) {

@@ -7,6 +7,7 @@
 #include "libguide/cache/cell_split.h"
 #include "libguide/cache/online_mixture.h"
 #include "libguide/cache/photon_extent.h"
+#include "libguide/cache/photon_sample.h"
 #include "libguide/directional/expectation_maximization.h"
 #include "libguide/records/guide_cache.h"
 #include "libguide/records/photon.h"
@@ -61,6 +62,15 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
 
   // Takes in the photons that wait for their batch to fill if they are enough to learn from.
   size_t flush(const CellTrainingOptions& options);
+
+  // What EM takes of a photon in the frame of the cell; empty where the cell does not learn from
+  // it.
+  std::optional<WeightedPoint> point_of(const Photon& photon, float emitted,
+                                        const CellTrainingOptions& options) const;
+  // Fits the mixture again, to a part of all photons of the stream that lie in the cell, and takes
+  // its evidence from them. False where it is left as it is: they are few, also against those that
+  // it has learned from.
+  bool fit_again(const PhotonSample<WeightedPoint>& photons, const CellTrainingOptions& options);
 
   // The cell as one of the two children of its split. Across a position split the lobes, and half
   // of their evidence, are inherited: the light is nearly the same, and new photons soon outweigh

@@ -27,7 +27,35 @@ BatchStatistics statistics_of(std::span<const WeightedPoint> batch, const BatchW
   return expectation.finish();
 }
 
+// What the start has to say in each M-step. Once a component is lost the others have moved, and it
+// has nothing to say any more.
+class StartStatistics {
+ public:
+  StartStatistics(std::span<const GaussianComponent> start, float share) : share_(share) {
+    if (share_ > 0)
+      for (const GaussianComponent& c : start) statistics_.push_back(waylight::statistics_of(c));
+  }
+  void blend_into(std::span<ComponentStatistics> statistics) const {
+    if (statistics.size() != statistics_.size()) return;
+    for (size_t k = 0; k < statistics.size(); ++k)
+      statistics[k] = blend(statistics[k], 1 - share_, statistics_[k], share_);
+  }
+
+ private:
+  float share_;
+  std::vector<ComponentStatistics> statistics_;
+};
+
 }  // namespace
+
+ComponentStatistics statistics_of(const GaussianComponent& c) {
+  return {c.weight,
+          c.weight * c.mean_x,
+          c.weight * c.mean_y,
+          c.weight * c.cov_xx,
+          c.weight * c.cov_xy,
+          c.weight * c.cov_yy};
+}
 
 EmResult fit_mixture(std::span<const WeightedPoint> points, const EmOptions& options,
                      std::span<const GaussianComponent> start) {
@@ -36,6 +64,7 @@ EmResult fit_mixture(std::span<const WeightedPoint> points, const EmOptions& opt
   result.rejected = weights.rejected;
   if (weights.used == 0) return result;
   result.components = start_of(points, options, start);
+  const StartStatistics start_statistics(result.components, options.start_share);
   std::vector<PointRow> rows(row_count(points.size()));
   fill_rows(points, weights, rows);
   double previous = -std::numeric_limits<double>::infinity();
@@ -45,6 +74,7 @@ EmResult fit_mixture(std::span<const WeightedPoint> points, const EmOptions& opt
     BatchStatistics batch = expectation.finish();
     const std::span<ComponentStatistics> statistics(batch.components.data(),
                                                     result.components.size());
+    start_statistics.blend_into(statistics);
     result.components.resize(
         maximization(statistics, weights.effective, options.prior, result.components));
     result.log_likelihood = batch.log_likelihood;

@@ -30,6 +30,7 @@ struct EmOptions {
   float tolerance = 1e-4f;  // relative change of the log-likelihood at which it stops
   float max_weight = kMaxTrainingWeight;
   MixturePrior prior;
+  float start_share = 0;  // of the statistics of each M-step, those of the start; in [0, 1)
 };
 
 struct EmResult {
@@ -52,6 +53,9 @@ std::vector<GaussianComponent> initial_components(std::span<const WeightedPoint>
 std::vector<GaussianComponent> components_around(std::span<const WeightedPoint> points,
                                                  std::span<const Vec2> centres,
                                                  const MixturePrior& prior);
+
+// The statistics whose maximum-likelihood M-step gives a component.
+ComponentStatistics statistics_of(const GaussianComponent& component);
 
 // Stepwise EM without allocation: one E-step over the batch, then the M-step. `components` and
 // `statistics` have the same length of at most kMaxEmComponents (statistics all zero before the

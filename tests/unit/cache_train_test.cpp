@@ -186,6 +186,34 @@ TEST(CacheTrain, ResultDoesNotDependOnThreads) {
   EXPECT_EQ(bytes[0], bytes[1]);
 }
 
+GuideCache train_and_refine(std::span<const Photon> photons, uint64_t emitted, size_t cut,
+                            CacheTrainSummary* summary = nullptr) {
+  CacheTrainer trainer({}, floor_info(emitted));
+  trainer.consume(photons);
+  for (size_t begin = 0; begin < photons.size(); begin += cut)
+    trainer.refine(photons.subspan(begin, std::min(cut, photons.size() - begin)));
+  GuideCache cache = trainer.finish(summary);
+  EXPECT_EQ(check(GuideCacheView(cache)), "");
+  return cache;
+}
+
+TEST(CacheTrain, RefiningDoesNotDependOnThreadsOrOnHowTheStreamIsCut) {
+  const std::vector<Photon> photons = floor_photons(60'000);
+  const std::string whole = bytes_of(train_and_refine(photons, 60'000, photons.size()));
+  EXPECT_NE(whole, bytes_of(train(photons, floor_info(60'000))));
+  const ThreadLimit limit(1);
+  EXPECT_EQ(bytes_of(train_and_refine(photons, 60'000, 777)), whole);
+}
+
+TEST(CacheTrain, RefinedMixturesAreCloserToTheLight) {
+  const std::vector<Photon> photons = floor_photons(100'000);
+  CacheTrainSummary summary;
+  const GuideCache refined = train_and_refine(photons, 100'000, photons.size(), &summary);
+  EXPECT_GT(summary.mixtures_refitted, summary.cells * 9 / 10);
+  const double once = mean_comparison(train(photons, floor_info(100'000))).distance;
+  EXPECT_LT(mean_comparison(refined).distance, 0.97 * once);
+}
+
 TEST(CacheTrain, GoingOnIsAsGoodAsTrainingInOneGo) {
   const std::vector<Photon> first = floor_photons(150'000, 1), second = floor_photons(150'000, 2);
   std::vector<Photon> all = first;

@@ -27,18 +27,34 @@ CacheFile read_previous(const CacheTrainArguments& arguments, const PhotonHeader
   return previous;
 }
 
-void consume_all(PhotonReader& reader, CacheTrainer& trainer, const ToolRun& run) {
+// take(photons, escapes, photons in media) of all of the file.
+template <typename Take>
+void read_all(PhotonReader& reader, const ToolRun& run, const char* what, const Take& take) {
   std::vector<Photon> photons;
   std::vector<Escape> escapes;
   std::vector<MediumPhoton> in_media;
   for (double done = 0; reader.read(&photons, &escapes, &in_media);) {
     run.stop_if_interrupted();
-    trainer.consume(photons);
-    trainer.consume(escapes);
-    trainer.consume(in_media);
+    take(photons, escapes, in_media);
     done += static_cast<double>(photons.size() + in_media.size());
-    run.control.progress(done, reader.share() > 0 ? done / reader.share() : 0, "photons");
+    run.control.progress(done, reader.share() > 0 ? done / reader.share() : 0, what);
   }
+}
+
+void train(PhotonReader& reader, CacheTrainer& trainer, const ToolRun& run) {
+  read_all(reader, run, "photons",
+           [&](const auto& photons, const auto& escapes, const auto& in_media) {
+             trainer.consume(photons);
+             trainer.consume(escapes);
+             trainer.consume(in_media);
+           });
+}
+
+void refine(PhotonReader reader, CacheTrainer& trainer, const ToolRun& run) {
+  read_all(reader, run, "photons again",
+           [&](const auto& photons, const auto& /*escapes*/, const auto& /*in_media*/) {
+             trainer.refine(photons);
+           });
 }
 
 Provenance provenance(const ToolRun& run, const ToolInfo& tool,
@@ -82,6 +98,7 @@ nlohmann::ordered_json stats_of(const Provenance& provenance, Quantity quantity,
                 {"weights_capped", s.weights_capped},
                 {"cells", s.cells},
                 {"cells_made", s.cells_made},
+                {"mixtures_refitted", s.mixtures_refitted},
                 {"cells_before_merging", s.cells_before_merging},
                 {"bytes_saved", s.bytes_saved},
                 {"cells_with_mixture", s.cells_with_mixture},
@@ -108,7 +125,7 @@ void report_media(const ToolRun& run, const MediumTrainSummary& s, bool merges) 
 }
 
 void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrainSummary& s,
-            bool merges) {
+            const CacheTrainArguments& arguments) {
   const double photons = static_cast<double>(s.photons + s.media.photons);
   const char* particles = stream.quantity == Quantity::importance ? "importons"
                           : stream.paths == 0                     ? "photons"
@@ -119,6 +136,12 @@ void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrain
   run.print(
       fmt::format("{} cells, {} with a mixture of {:.1f} components and {:.0f} effective samples",
                   s.cells, s.cells_with_mixture, s.mean_components, s.mean_effective_samples));
+  if (arguments.reads_again())
+    run.print(fmt::format("{} mixtures of surfaces fitted again to all photons of their cells",
+                          s.mixtures_refitted));
+  else
+    run.print("photons were read once: no mixture was fitted again");
+  const bool merges = arguments.options.merge_alike;
   if (merges)
     run.print(fmt::format("{} cells became {} where their light is the same: {} saved",
                           s.cells_before_merging, s.cells, format_bytes(double(s.bytes_saved))));
@@ -143,14 +166,15 @@ void cache_train(const ToolRun& run, const ToolInfo& tool, const CacheTrainArgum
   const PhotonHeader& header = reader.header();
   CacheFile previous = read_previous(arguments, header);
   CacheTrainer trainer(arguments.options, header.stream, std::move(previous.cache));
-  consume_all(reader, trainer, run);
+  train(reader, trainer, run);
+  if (arguments.reads_again()) refine(PhotonReader(arguments.photons), trainer, run);
   CacheTrainSummary summary;
   CacheFile file;
   file.cache = trainer.finish(&summary);
   file.provenance = provenance(run, tool, arguments, reader);
   run.stop_if_interrupted();
   write_cache(arguments.output, file);
-  report(run, header.stream, summary, arguments.options.merge_alike);
+  report(run, header.stream, summary, arguments);
   run.write_stats(stats_of(file.provenance, file.cache.quantity, summary));
 }
 

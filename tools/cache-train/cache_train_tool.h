@@ -8,7 +8,12 @@ namespace waylight {
 struct CacheTrainArguments {
   std::string photons, previous, output;
   CacheTrainOptions options;
+  bool once = false;  // photons are not read again
+
+  bool reads_again() const { return !once && photons != "-"; }
 };
+
+void declare(CLI::App& app, CacheTrainArguments& arguments);
 
 void cache_train(const ToolRun& run, const ToolInfo& tool, const CacheTrainArguments& arguments);
 

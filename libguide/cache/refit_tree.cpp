@@ -1,0 +1,24 @@
+#include "libguide/cache/refit_tree.h"
+
+#include <algorithm>
+
+namespace waylight {
+
+size_t RefitCell::absorb(std::span<const Photon> block, std::span<const uint32_t> indices,
+                         float emitted, const CellTrainingOptions& options) {
+  for (const uint32_t i : indices)
+    if (const auto point = cell_->point_of(block[i], emitted, options)) photons_.add(*point);
+  return 0;
+}
+
+size_t RefitCell::flush(const CellTrainingOptions& options) {
+  refitted_ = cell_->fit_again(photons_, options);
+  photons_ = PhotonSample<WeightedPoint>(0);
+  return 0;
+}
+
+size_t RefitTree::refitted() const {
+  return static_cast<size_t>(std::ranges::count_if(cells_, &RefitCell::refitted));
+}
+
+}  // namespace waylight
