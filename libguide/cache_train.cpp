@@ -78,7 +78,10 @@ void CacheTrainOptions::validate() const {
 struct CacheTrainer::Impl {
   Impl(const CacheTrainOptions& options, const PhotonStreamInfo& stream, GuideCache previous);
 
-  void consume(std::span<const Photon> photons) { surfaces_.consume(photons); }
+  void consume(std::span<const Photon> photons) {
+    require(!refit_, "photons come before the same photons again");
+    surfaces_.consume(photons);
+  }
   void consume(std::span<const MediumPhoton> photons);
   void consume(std::span<const Escape> escapes);
   void refine(std::span<const Photon> photons);
@@ -188,7 +191,10 @@ void CacheTrainer::Impl::consume(std::span<const Escape> escapes) {
 void CacheTrainer::Impl::refine(std::span<const Photon> photons) {
   if (!refit_) {
     surfaces_.finish();
-    refit_.emplace(RefitTree(surfaces_.tree()), surfaces_.rules(), 0);
+    SurfaceRules rules = surfaces_.rules();
+    const double all = static_cast<double>(surfaces_.photons());
+    rules.cell.old_share = all > 0 ? clock_.photons_before / all : 0;
+    refit_.emplace(RefitTree(surfaces_.tree()), rules, 0);
   }
   refit_->consume(photons);
 }
@@ -254,7 +260,7 @@ void CacheTrainer::Impl::summarise(CacheTrainSummary& summary) const {
   summary.media.photons = media_.tally().photons;
   summary.media.rejected = media_.tally().rejected;
   summary.media.weights_capped = media_.tally().weights_capped;
-  summary.bytes = surfaces_.tree().bytes();
+  summary.bytes = surfaces_.tree().bytes() + (refit_ ? refit_->tree().bytes() : 0);
   summary.media.cells_before_merging = medium_cells_before_merging_;
   if (!cache_.medium.cells.empty()) summary.media.bytes = media_.tree().bytes();
   summary.seconds =

@@ -94,8 +94,9 @@ class OnlineMixture {
   void forget();
   // Adds the evidence of a mixture that learned from photons of the same light.
   void add_evidence(const OnlineMixture& other);
-  // Photons, the sum of their weights and that of the squares.
-  void state_evidence(double photons, double sum, double sum2);
+  // The evidence becomes that of `photons`, with the sum of their weights and that of the squares,
+  // and of `old` of the photons before.
+  void state_evidence(double photons, double sum, double sum2, double old);
   // Statistics begin anew from the components: the next M-step gives the same ones again.
   void replace_mixture(std::span<const Component> components);
 
@@ -250,12 +251,14 @@ void OnlineMixture<Lobes>::replace_mixture(std::span<const Component> components
 }
 
 template <typename Lobes>
-void OnlineMixture<Lobes>::state_evidence(double photons, double sum, double sum2) {
-  record_.photon_count = static_cast<float>(photons);
-  training_.weight_sum = sum;
-  training_.weight_sum2 = sum2;
+void OnlineMixture<Lobes>::state_evidence(double photons, double sum, double sum2, double old) {
+  const double kept = old > 0 ? old / record_.photon_count : 0;
+  record_.photon_count = static_cast<float>(photons + old);
+  training_.weight_sum = sum + kept * training_.weight_sum;
+  training_.weight_sum2 = sum2 + kept * training_.weight_sum2;
   weigh_evidence();
   training_.samples = record_.effective_samples;
+  training_.step = std::max(training_.step, record_.photon_count / kBatchSize);
 }
 
 template <typename Lobes>

@@ -20,9 +20,11 @@ class RefitCell {
   size_t flush(const CellTrainingOptions& options);
   bool refitted() const { return refitted_; }
 
+  static constexpr size_t kMostPhotons = 512;
+
  private:
   TrainingCell* cell_;
-  PhotonSample<WeightedPoint> photons_{512};
+  PhotonSample<WeightedPoint> photons_{kMostPhotons};
   bool refitted_ = false;
 };
 
@@ -39,6 +41,9 @@ class RefitTree {
   RefitCell& operator[](size_t i) { return cells_[i]; }
   void split_full_cells(const TreeOptions&, const CellTrainingOptions&, double) {}  // none is
   size_t refitted() const;
+  size_t bytes() const {  // at most
+    return size() * (sizeof(RefitCell) + RefitCell::kMostPhotons * sizeof(WeightedPoint));
+  }
 
  private:
   TrainingTree* tree_ = nullptr;

@@ -35,8 +35,13 @@ constexpr float kRoom = 0.25f, kDeviations = 3, kThickness = 0.01f;
 
 // Photons that a mixture is fitted to again, at least, and at least this share of those that it has
 // learned from, what it inherited included: a cell in the dark keeps what its parent knew.
-constexpr size_t kRefitPhotons = 64;
+constexpr int kRefitPhotons = 64;
 constexpr double kRefitShare = 0.5;
+
+// Then what was learned on the way, from photons of a larger place, counts for as much as the
+// photons that it was fitted to are not, and for so much at least: without it the trimmed relMSE of
+// the interior scene is 5 % higher, with a half 2 %.
+constexpr double kLearnedShare = 0.3;
 
 // Of photons as CellTraining has it, W; of what camera paths found, W/m^2.
 float weight_of(const Photon& photon, float emitted) {
@@ -139,16 +144,15 @@ std::optional<WeightedPoint> TrainingCell::point_of(const Photon& photon, float 
 bool TrainingCell::fit_again(const PhotonSample<WeightedPoint>& photons,
                              const CellTrainingOptions& options) {
   const std::vector<WeightedPoint>& kept = photons.kept();
-  if (kept.size() < kRefitPhotons || photons.seen() < kRefitShare * record_.photon_count)
-    return false;
-  replace_mixture(refine_mixture(kept, components(), options.components, options.prior));
-  double sum = 0, sum2 = 0;
-  for (const WeightedPoint& point : kept) {
-    sum += point.weight;
-    sum2 += double{point.weight} * point.weight;
-  }
-  const double per_kept = photons.seen() / static_cast<double>(kept.size());
-  state_evidence(photons.seen(), sum * per_kept, sum2 * per_kept);
+  const double old = options.old_share * record_.photon_count, learned = record_.photon_count - old;
+  const BatchWeights weights = scan_weights(kept, kMaxTrainingWeight);
+  if (weights.used < kRefitPhotons || photons.seen() < kRefitShare * learned) return false;
+  const double fitted = static_cast<double>(kept.size()) / (photons.seen() + old);
+  const double share = std::max(kLearnedShare, 1 - fitted);
+  replace_mixture(refine_mixture(kept, components(), options.components, options.prior,
+                                 static_cast<float>(share)));
+  const double sum = weights.used / weights.scale, per_kept = photons.seen() / kept.size();
+  state_evidence(photons.seen(), per_kept * sum, per_kept * sum * sum / weights.effective, old);
   return true;
 }
 

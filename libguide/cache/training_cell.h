@@ -21,6 +21,7 @@ struct CellTrainingOptions {
   MixturePrior prior;
   bool mixes = false;               // camera paths are among the photons, or were
   double photons_per_particle = 0;  // of the whole training, as far as is known; where it mixes
+  double old_share = 0;  // of the photons of the whole training, those of earlier streams
 };
 
 // Gaussians over the disk of a cell's mean normal.
@@ -67,9 +68,9 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   // it.
   std::optional<WeightedPoint> point_of(const Photon& photon, float emitted,
                                         const CellTrainingOptions& options) const;
-  // Fits the mixture again, to a part of all photons of the stream that lie in the cell, and takes
-  // its evidence from them. False where it is left as it is: they are few, also against those that
-  // it has learned from.
+  // Fits the mixture again, to a part of all photons of the stream that lie in the cell, which take
+  // the place of those of the stream in its evidence. False where it is left as it is: they are
+  // few, also against those that it has learned from.
   bool fit_again(const PhotonSample<WeightedPoint>& photons, const CellTrainingOptions& options);
 
   // The cell as one of the two children of its split. Across a position split the lobes, and half

@@ -10,7 +10,7 @@
 
 namespace waylight {
 
-// Looks at points of the disk in bins of a third of a degree to five degrees.
+// Looks at points of the disk in bins of two thirds of a degree to ten degrees.
 class MissingLobes {
  public:
   // Weights as EmOptions has them.

@@ -16,7 +16,7 @@ struct CacheCell {
   Vec3 normal =
       Vec3::UnitZ();       // of the cell's frame: Frame(normal); the mixture's plane is its disk
   float irradiance = 0;    // W/m^2, luminance, estimated from the photon power per surface area
-  float photon_count = 0;  // photons that the mixture saw, half of its parent's included
+  float photon_count = 0;  // photons behind the mixture: its own, or half of its parent's too
   float effective_samples = 0;  // (sum w)^2 / sum w^2 of their weights
   float guided_mass = 0;        // share of the mixture's mass inside the domain
   uint32_t first_component = 0;

@@ -214,6 +214,40 @@ TEST(CacheTrain, RefinedMixturesAreCloserToTheLight) {
   EXPECT_LT(mean_comparison(refined).distance, 0.97 * once);
 }
 
+TEST(CacheTrain, RefinedCellsOwnTheEvidenceOfTheirPhotonsBoundedAsInTraining) {
+  std::vector<Photon> photons = floor_photons(100'000);
+  photons[photons.size() / 2].power *= 1e5f;
+  const GuideCache cache = train_and_refine(photons, 100'000, photons.size());
+  double sum = 0;
+  for (const CacheCell& cell : cache.cells) {
+    EXPECT_GT(cell.effective_samples, 0.1f * cell.photon_count);
+    sum += cell.photon_count;
+  }
+  EXPECT_NEAR(sum / static_cast<double>(photons.size()), 1, 0.05);
+}
+
+TEST(CacheTrain, RefiningKeepsTheEvidenceOfEarlierStreams) {
+  const std::vector<Photon> first = floor_photons(50'000, 1), second = floor_photons(50'000, 2);
+  CacheTrainer trainer({}, floor_info(50'000), train(first, floor_info(50'000)));
+  trainer.consume(second);
+  trainer.refine(second);
+  CacheTrainSummary summary;
+  const GuideCache cache = trainer.finish(&summary);
+  EXPECT_GT(summary.mixtures_refitted, summary.cells * 3 / 4);
+  double sum = 0;
+  for (const CacheCell& cell : cache.cells) sum += cell.photon_count;
+  EXPECT_GT(sum, 1.3 * static_cast<double>(second.size()));
+  for (const CellTraining& t : cache.training) EXPECT_GE(t.step, 1);
+}
+
+TEST(CacheTrain, RefusesPhotonsAfterTheSameAgain) {
+  const std::vector<Photon> photons = floor_photons(1000);
+  CacheTrainer trainer({}, floor_info(1000));
+  trainer.consume(photons);
+  trainer.refine(photons);
+  EXPECT_THROW(trainer.consume(photons), Error);
+}
+
 TEST(CacheTrain, GoingOnIsAsGoodAsTrainingInOneGo) {
   const std::vector<Photon> first = floor_photons(150'000, 1), second = floor_photons(150'000, 2);
   std::vector<Photon> all = first;

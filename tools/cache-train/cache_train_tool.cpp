@@ -50,11 +50,20 @@ void train(PhotonReader& reader, CacheTrainer& trainer, const ToolRun& run) {
            });
 }
 
-void refine(PhotonReader reader, CacheTrainer& trainer, const ToolRun& run) {
+void refine(const PhotonReader& first, const std::string& path, CacheTrainer& trainer,
+            const ToolRun& run) {
+  PhotonReader reader(path);
   read_all(reader, run, "photons again",
            [&](const auto& photons, const auto& /*escapes*/, const auto& /*in_media*/) {
              trainer.refine(photons);
            });
+  if (reader.content_hash() != first.content_hash())
+    fail("\"{}\": changed while it was read: run the training again", path);
+}
+
+// A pipe can be read but once.
+bool reads_again(const CacheTrainArguments& arguments, const PhotonReader& reader) {
+  return !arguments.once && arguments.photons != "-" && reader.share() > 0;
 }
 
 Provenance provenance(const ToolRun& run, const ToolInfo& tool,
@@ -125,7 +134,7 @@ void report_media(const ToolRun& run, const MediumTrainSummary& s, bool merges) 
 }
 
 void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrainSummary& s,
-            const CacheTrainArguments& arguments) {
+            bool read_again, bool merges) {
   const double photons = static_cast<double>(s.photons + s.media.photons);
   const char* particles = stream.quantity == Quantity::importance ? "importons"
                           : stream.paths == 0                     ? "photons"
@@ -136,12 +145,11 @@ void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrain
   run.print(
       fmt::format("{} cells, {} with a mixture of {:.1f} components and {:.0f} effective samples",
                   s.cells, s.cells_with_mixture, s.mean_components, s.mean_effective_samples));
-  if (arguments.reads_again())
+  if (read_again)
     run.print(fmt::format("{} mixtures of surfaces fitted again to all photons of their cells",
                           s.mixtures_refitted));
   else
     run.print("photons were read once: no mixture was fitted again");
-  const bool merges = arguments.options.merge_alike;
   if (merges)
     run.print(fmt::format("{} cells became {} where their light is the same: {} saved",
                           s.cells_before_merging, s.cells, format_bytes(double(s.bytes_saved))));
@@ -167,14 +175,15 @@ void cache_train(const ToolRun& run, const ToolInfo& tool, const CacheTrainArgum
   CacheFile previous = read_previous(arguments, header);
   CacheTrainer trainer(arguments.options, header.stream, std::move(previous.cache));
   train(reader, trainer, run);
-  if (arguments.reads_again()) refine(PhotonReader(arguments.photons), trainer, run);
+  const bool again = reads_again(arguments, reader);
+  if (again) refine(reader, arguments.photons, trainer, run);
   CacheTrainSummary summary;
   CacheFile file;
   file.cache = trainer.finish(&summary);
   file.provenance = provenance(run, tool, arguments, reader);
   run.stop_if_interrupted();
   write_cache(arguments.output, file);
-  report(run, header.stream, summary, arguments);
+  report(run, header.stream, summary, again, arguments.options.merge_alike);
   run.write_stats(stats_of(file.provenance, file.cache.quantity, summary));
 }
 

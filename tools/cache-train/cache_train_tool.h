@@ -9,8 +9,6 @@ struct CacheTrainArguments {
   std::string photons, previous, output;
   CacheTrainOptions options;
   bool once = false;  // photons are not read again
-
-  bool reads_again() const { return !once && photons != "-"; }
 };
 
 void declare(CLI::App& app, CacheTrainArguments& arguments);

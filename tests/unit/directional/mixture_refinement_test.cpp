@@ -25,7 +25,7 @@ std::vector<WeightedPoint> points_of(const GaussianComponent& lobe, int count, u
   return points;
 }
 
-// A wide lobe of 500 points, and a beam of ten in a fiftieth of a degree.
+// A wide lobe of 500 points, and a beam of ten within a tenth of a degree.
 std::vector<WeightedPoint> points_with_beam() {
   std::vector<WeightedPoint> points = points_of(kWide, 500);
   for (int i = 0; i < 10; ++i)
@@ -63,7 +63,7 @@ TEST(MissingLobes, FindNothingWithoutValidPoints) {
 
 TEST(RefineMixture, GivesABeamALobeOfItsOwn) {
   const std::vector<WeightedPoint> points = points_with_beam();
-  const auto refined = refine_mixture(points, std::span(&kWide, 1), 8, {});
+  const auto refined = refine_mixture(points, std::span(&kWide, 1), 8, {}, 0.3f);
   const Vec2 beam = kBeam + Vec2(5e-4f, 2e-4f);
   EXPECT_GT(density(refined, beam), 50 * density(std::span(&kWide, 1), beam));
   EmOptions em;  // which alone takes the beam for a part of the lobe
@@ -77,21 +77,42 @@ TEST(RefineMixture, PutsTheLobeInPlaceOfAnotherWhereThereIsNoRoom) {
   em.components = 8;
   const auto start = fit_mixture(points_of(kWide, 500), em).components;
   ASSERT_EQ(start.size(), 8u);
-  const auto refined = refine_mixture(points, start, 8, {});
+  const auto refined = refine_mixture(points, start, 8, {}, 0.3f);
   EXPECT_LE(refined.size(), 8u);
   EXPECT_GT(density(refined, kBeam), 50 * density(start, kBeam));
 }
 
+TEST(RefineMixture, HasNoMoreLobesThanItMay) {
+  for (const int most : {1, 2}) {
+    const auto refined = refine_mixture(points_with_beam(), std::span(&kWide, 1), most, {}, 0.3f);
+    EXPECT_EQ(refined.size(), static_cast<size_t>(most));
+  }
+}
+
+// Two wide lobes a little off: EM has yet to gain, a lobe more has not.
+TEST(RefineMixture, GivesALobeNoCreditForWhatEmGainsAnyway) {
+  GaussianComponent other = kWide;
+  other.mean_x = -0.5f;
+  GaussianComponent start[] = {kWide, other};
+  for (GaussianComponent& c : start) c.mean_y += 0.15f, c.cov_xx *= 2, c.weight = 0.5f;
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    std::vector<WeightedPoint> points = points_of(kWide, 200, seed);
+    for (const WeightedPoint& p : points_of(other, 200, seed + 100)) points.push_back(p);
+    EXPECT_EQ(refine_mixture(points, start, 8, {}, 0.3f).size(), 2u) << "seed " << seed;
+  }
+}
+
 TEST(RefineMixture, AddsNoLobeToPointsOfTheMixtureItself) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const auto refined = refine_mixture(points_of(kWide, 400, seed), std::span(&kWide, 1), 8, {});
+    const auto refined =
+        refine_mixture(points_of(kWide, 400, seed), std::span(&kWide, 1), 8, {}, 0.3f);
     EXPECT_EQ(refined.size(), 1u) << "seed " << seed;
   }
 }
 
 TEST(RefineMixture, KeepsTheMixtureWithoutValidPoints) {
   const WeightedPoint bad{Vec2(0, 0), -1};
-  const auto refined = refine_mixture(std::span(&bad, 1), std::span(&kWide, 1), 8, {});
+  const auto refined = refine_mixture(std::span(&bad, 1), std::span(&kWide, 1), 8, {}, 0.3f);
   ASSERT_EQ(refined.size(), 1u);
   EXPECT_EQ(refined[0].mean_x, kWide.mean_x);
 }
