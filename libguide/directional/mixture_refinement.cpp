@@ -40,11 +40,12 @@ std::optional<EmResult> with_missing_lobe(std::span<const WeightedPoint> points,
   const auto lobe = missing.find(fit.components, options.prior);
   if (!lobe || lobe->weight >= 1 || options.components < 2) return std::nullopt;
   const bool in_place = fit.components.size() >= static_cast<size_t>(options.components);
+  const double least = required_gain(missing.samples(), in_place) / missing.samples();
   EmResult result =
       fit_mixture(points, options, with_lobe(fit.components, *lobe, options.components));
+  if (!(result.log_likelihood - fit.log_likelihood > least)) return std::nullopt;
   const EmResult without = fit_mixture(points, options, fit.components);
-  const double gain = missing.samples() * (result.log_likelihood - without.log_likelihood);
-  if (!(gain > required_gain(missing.samples(), in_place))) return std::nullopt;
+  if (!(result.log_likelihood - without.log_likelihood > least)) return std::nullopt;
   return result;
 }
 

@@ -24,7 +24,7 @@ Flight guided_flight(const Scene& scene, const FlightSpace& space, const FlightO
                      Sampler& sampler) {
   constexpr float kWorthAiming = 0.02f;
   GuidedFlight flight(space, options);
-  if (flight.direct_share() > kWorthAiming)
+  if (flight.from_emitters() > kWorthAiming)
     if (const std::optional<Vec3> light = light_point(scene, space, sampler)) flight.aim_at(*light);
   return flight.sample(sampler);
 }

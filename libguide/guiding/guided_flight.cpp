@@ -44,7 +44,7 @@ void GuidedFlight::weigh(float standard_share) {
   standard_ = knows ? standard_share : 1;
   guided_ = knows ? (1 - standard_share) / total : 0;
   pass_ = passed * (standard_ + guided_ * bins_.end_radiance);
-  direct_share_ = knows ? guided_ * lanes_sum(direct) : 0;
+  from_emitters_ = knows ? guided_ * lanes_sum(direct) : 0;
 }
 
 void GuidedFlight::aim_at(const Vec3& light) {

@@ -38,7 +38,7 @@ class GuidedFlight {
 
   // Of all flights, those guided by light straight from emitters, as far as its share in the
   // fluence of cells is that in what they scatter.
-  float direct_share() const { return direct_share_; }
+  float from_emitters() const { return from_emitters_; }
   // Gives a part of them to the point of a light. Given any one, the flight is unbiased.
   void aim_at(const Vec3& light);
 
@@ -53,7 +53,7 @@ class GuidedFlight {
   float factor(int bin) const {
     return standard_ + guided_ * bins_.source[bin] * (1 - aimed_ * bins_.direct[bin]);
   }
-  float aimed_share() const { return aimed_ * direct_share(); }
+  float aimed_share() const { return aimed_ * from_emitters(); }
   float pdf_in(int bin, float t) const;
   int choose(float u) const;
   float place(int bin, const Vec2& u) const;
@@ -66,9 +66,9 @@ class GuidedFlight {
   std::array<Process, 3> processes_;
   float standard_ = 1, guided_ = 0;  // what is added, by the factor, in a bin
   float pass_ = 1;
-  float direct_share_ = 0;
+  float from_emitters_ = 0;
   EquiangularRange near_light_;
-  float aimed_ = 0;                   // the part of direct_share_ that near_light_ has, in [0, 1]
+  float aimed_ = 0;                   // the part of from_emitters_ that near_light_ has, in [0, 1]
   alignas(32) FlightBins::Row mass_;  // of the standard processes in each bin
 };
 

@@ -57,7 +57,7 @@ TEST(GuidedFlight, AimedAtALampOnlyWhereTheCellsHaveItsLight) {
   GuidedFlight near(space, {0.1f}), far(space, {0.1f});
   near.aim_at(kBeside);
   far.aim_at(kThrough(1.1f) + Vec3(0, 500, 0));
-  EXPECT_GT(plain.direct_share(), 0.5f);
+  EXPECT_GT(plain.from_emitters(), 0.5f);
   EXPECT_GT(near.pdf(1.1f), 2 * plain.pdf(1.1f));
   EXPECT_NEAR(far.pdf(1.1f), plain.pdf(1.1f), 0.02f * plain.pdf(1.1f));
 
@@ -68,7 +68,7 @@ TEST(GuidedFlight, AimedAtALampOnlyWhereTheCellsHaveItsLight) {
   GuidedFlight aimed(dark_space, {0.1f});
   const float before = aimed.pdf(1.1f);
   aimed.aim_at(kBeside);
-  EXPECT_EQ(aimed.direct_share(), 0);
+  EXPECT_EQ(aimed.from_emitters(), 0);
   EXPECT_EQ(aimed.pdf(1.1f), before);
 }
 
