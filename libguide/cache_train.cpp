@@ -79,12 +79,12 @@ struct CacheTrainer::Impl {
   Impl(const CacheTrainOptions& options, const PhotonStreamInfo& stream, GuideCache previous);
 
   void consume(std::span<const Photon> photons) {
-    require(!refit_, "photons come before the same photons again");
+    require(!refits_, "photons come before the same photons again");
     surfaces_.consume(photons);
   }
   void consume(std::span<const MediumPhoton> photons);
   void consume(std::span<const Escape> escapes);
-  void refine(std::span<const Photon> photons);
+  void refit(std::span<const Photon> photons);
   GuideCache finish(CacheTrainSummary* summary);
 
  private:
@@ -102,7 +102,7 @@ struct CacheTrainer::Impl {
   uint64_t emitted_;             // particles of the stream
   double expected_photons_ = 0;  // of the whole training when it is done; 0: not known
   BlockTrainer<Photon, TrainingTree, SurfaceRules> surfaces_;
-  std::optional<BlockTrainer<Photon, RefitTree, SurfaceRules>> refit_;  // once that has begun
+  std::optional<BlockTrainer<Photon, RefitTree, SurfaceRules>> refits_;  // once that has begun
   BlockTrainer<MediumPhoton, MediumTree, MediumRules> media_;
   EscapeMap escape_map_;
   EscapeHistogram escapes_;
@@ -188,15 +188,15 @@ void CacheTrainer::Impl::consume(std::span<const Escape> escapes) {
   }
 }
 
-void CacheTrainer::Impl::refine(std::span<const Photon> photons) {
-  if (!refit_) {
+void CacheTrainer::Impl::refit(std::span<const Photon> photons) {
+  if (!refits_) {
     surfaces_.finish();
     SurfaceRules rules = surfaces_.rules();
     const double all = static_cast<double>(surfaces_.photons());
     rules.cell.old_share = all > 0 ? clock_.photons_before / all : 0;
-    refit_.emplace(RefitTree(surfaces_.tree()), rules, 0);
+    refits_.emplace(RefitTree(surfaces_.tree()), rules, 0);
   }
-  refit_->consume(photons);
+  refits_->consume(photons);
 }
 
 GuideCache CacheTrainer::Impl::finish(CacheTrainSummary* summary) {
@@ -208,8 +208,8 @@ GuideCache CacheTrainer::Impl::finish(CacheTrainSummary* summary) {
 }
 
 void CacheTrainer::Impl::finish_surfaces() {
-  if (refit_)
-    refit_->finish();
+  if (refits_)
+    refits_->finish();
   else
     surfaces_.finish();
   cache_.photons = surfaces_.photons();
@@ -224,6 +224,7 @@ void CacheTrainer::Impl::finish_surfaces() {
     bytes_saved_ = tree.merge_alike({surfaces_.rules().cell.components, rules.normal_spread,
                                      clock_.photons, sqr(rules.min_extent), per_particle});
   tree.lend_mixtures();
+  tree.sort_by_place();
   tree.store(cache_, rules, per_particle);
 }
 
@@ -241,6 +242,7 @@ void CacheTrainer::Impl::finish_media() {
   medium_cells_before_merging_ = tree.size();
   if (merges_alike_) tree.merge_alike(media_.rules().cell, medium_clock_.photons);
   tree.lend_mixtures();
+  tree.sort_by_place();
   tree.store(medium, media_.rules().cell, medium_clock_.photons / medium_clock_.particles);
 }
 
@@ -253,14 +255,14 @@ void CacheTrainer::Impl::summarise(CacheTrainSummary& summary) const {
   summary.dropped_direct = tally.dropped_direct + escape_tally_.dropped_direct;
   summary.weights_capped = tally.weights_capped;
   summary.count_cells(cache_);
-  summary.mixtures_refitted = refit_ ? refit_->tree().refitted() : 0;
+  summary.mixtures_refitted = refits_ ? refits_->tree().refitted() : 0;
   summary.cells_before_merging = cells_before_merging_;
   summary.bytes_saved = bytes_saved_;
   summary.cells_made = cells_before_merging_ - cells_before_;
   summary.media.photons = media_.tally().photons;
   summary.media.rejected = media_.tally().rejected;
   summary.media.weights_capped = media_.tally().weights_capped;
-  summary.bytes = surfaces_.tree().bytes() + (refit_ ? refit_->tree().bytes() : 0);
+  summary.bytes = surfaces_.tree().bytes() + (refits_ ? refits_->tree().bytes() : 0);
   summary.media.cells_before_merging = medium_cells_before_merging_;
   if (!cache_.medium.cells.empty()) summary.media.bytes = media_.tree().bytes();
   summary.seconds =
@@ -278,7 +280,7 @@ CacheTrainer::~CacheTrainer() = default;
 void CacheTrainer::consume(std::span<const Photon> batch) { running(impl_).consume(batch); }
 void CacheTrainer::consume(std::span<const MediumPhoton> batch) { running(impl_).consume(batch); }
 void CacheTrainer::consume(std::span<const Escape> batch) { running(impl_).consume(batch); }
-void CacheTrainer::refine(std::span<const Photon> batch) { running(impl_).refine(batch); }
+void CacheTrainer::refit(std::span<const Photon> batch) { running(impl_).refit(batch); }
 
 GuideCache CacheTrainer::finish(CacheTrainSummary* summary) {
   const std::unique_ptr<Impl> impl = std::move(impl_);

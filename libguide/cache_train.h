@@ -77,7 +77,7 @@ class CacheTrainer {
   // After all of the stream, its photons of surfaces again, in any number of batches: each mixture
   // is fitted anew to those in its cell, most of which the cells before it have learned from. (In
   // media, where cells see more photons, it did not lower the error of images.)
-  void refine(std::span<const Photon> photons);
+  void refit(std::span<const Photon> photons);
   GuideCache finish(CacheTrainSummary* summary);
 
  private:

@@ -9,7 +9,7 @@
 #include "libguide/base/parallel.h"
 #include "libguide/cache/cell_split.h"
 #include "libguide/cache/training_clock.h"
-#include "libguide/spatial/orientation_tree.h"
+#include "libguide/spatial/leaf_finder.h"
 
 namespace waylight {
 
@@ -26,14 +26,18 @@ template <typename Cell>
 class CellTree {
  public:
   explicit CellTree(Cell root = {})
-      : nodes_{{0, 0, kLeafAxis}}, cells_{std::move(root)}, node_of_cell_{0}, depth_{0} {}
+      : nodes_{{0, 0, kLeafAxis}},
+        cells_{std::move(root)},
+        node_of_cell_{0},
+        depth_{0},
+        finder_(nodes_) {}
   // nodes: passed check_tree().
   CellTree(std::vector<CacheNode> nodes, std::deque<Cell> cells);
 
   const std::vector<CacheNode>& nodes() const { return nodes_; }
   const std::deque<Cell>& cells() const { return cells_; }
   uint32_t find(const Vec3& position, const Vec3& normal) const {
-    return find_leaf(nodes_, position, normal);
+    return finder_.find(position, normal);
   }
   size_t size() const { return cells_.size(); }
   Cell& operator[](size_t i) { return cells_[i]; }
@@ -49,6 +53,10 @@ class CellTree {
   template <typename Merge>
   void merge_siblings(const Merge& merge);
 
+  // Orders cells and nodes depth first, as a walk of the tree meets them: what lies close together
+  // in space does so in memory. Indices of cells change.
+  void sort_by_place();
+
   // Restates when cells were made so that the photons since then stand for their particles at the
   // mean rate of the whole training; for a first stream they do.
   void restate_exposure(const TrainingClock& clock);
@@ -59,7 +67,7 @@ class CellTree {
   std::vector<CellLoan> find_loans(const Needs& needs, const CanLend& can_lend) const;
 
   size_t bytes() const {
-    return nodes_.capacity() * sizeof(CacheNode) +
+    return nodes_.capacity() * sizeof(CacheNode) + finder_.bytes() +
            cells_.size() * (sizeof(Cell) + sizeof(uint32_t) + sizeof(uint8_t));
   }
 
@@ -89,6 +97,7 @@ class CellTree {
   std::deque<Cell> cells_;  // never moved: growing a vector would need twice the memory
   std::vector<uint32_t> node_of_cell_;
   std::vector<uint8_t> depth_;  // of the cell's leaf
+  LeafFinder finder_;           // of nodes_ as they are between calls
 };
 
 template <typename Cell>
@@ -97,11 +106,12 @@ CellTree<Cell>::CellTree(std::vector<CacheNode> nodes, std::deque<Cell> cells)
   find_nodes();
 }
 
-// Which node is the leaf of each cell, and how deep.
+// Which node is the leaf of each cell, how deep, and how to get there.
 template <typename Cell>
 void CellTree<Cell>::find_nodes() {
   node_of_cell_.resize(cells_.size());
   depth_.resize(cells_.size());
+  finder_ = LeafFinder(nodes_);
   std::vector<uint8_t> depth(nodes_.size());
   for (uint32_t i = 0; i < nodes_.size(); ++i) {
     const CacheNode& node = nodes_[i];
@@ -123,6 +133,7 @@ void CellTree<Cell>::split_cells(size_t max_cells, const Where& where, const Chi
     const std::optional<CellSplit> place = where(cells_[i]);
     if (place) split(i, *place, child(cells_[i], *place, false), child(cells_[i], *place, true));
   }
+  if (cells_.size() > count) finder_ = LeafFinder(nodes_);
 }
 
 template <typename Cell>
@@ -216,6 +227,30 @@ void CellTree<Cell>::remove_unreached_nodes() {
   for (CacheNode& node : kept)
     if (node.axis != kLeafAxis) node.child = index[node.child];
   nodes_ = std::move(kept);
+}
+
+// Siblings stay beside each other; what is below the lower one comes before what is below the
+// upper.
+template <typename Cell>
+void CellTree<Cell>::sort_by_place() {
+  std::vector<CacheNode> nodes = {nodes_[0]};
+  std::deque<Cell> cells;
+  for (std::vector<uint32_t> open = {0}; !open.empty();) {
+    CacheNode& node = nodes[open.back()];
+    open.pop_back();
+    const uint32_t from = node.child;
+    if (node.axis == kLeafAxis) {
+      node.child = static_cast<uint32_t>(cells.size());
+      cells.push_back(std::move(cells_[from]));
+      continue;
+    }
+    const uint32_t child = node.child = static_cast<uint32_t>(nodes.size());
+    nodes.insert(nodes.end(), {nodes_[from], nodes_[from + 1]});
+    open.insert(open.end(), {child + 1, child});
+  }
+  nodes_ = std::move(nodes);
+  cells_ = std::move(cells);
+  find_nodes();
 }
 
 template <typename Cell>

@@ -60,8 +60,10 @@ struct GuideCacheView {
   // The cell that guides at a point of a surface, as far as guiding_trust() goes; nullptr where the
   // cache knows too little: sample the BSDF there.
   const CacheCell* query(const Vec3& position, const Vec3& normal) const {
-    if (nodes.empty()) return nullptr;
-    const uint32_t index = find_leaf(nodes, position, normal);
+    return nodes.empty() ? nullptr : guide_at(find_leaf(nodes, position, normal), position, normal);
+  }
+  // The same where the cell that holds the point is known.
+  const CacheCell* guide_at(uint32_t index, const Vec3& position, const Vec3& normal) const {
     const CacheCell& cell = cells[index];
     if (!reaches.empty() && !reaches[index].holds(position)) return nullptr;
     const bool known = cell.component_count > 0 && cell.effective_samples >= kMinEffectiveSamples &&

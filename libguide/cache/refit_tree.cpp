@@ -12,7 +12,7 @@ size_t RefitCell::absorb(std::span<const Photon> block, std::span<const uint32_t
 }
 
 size_t RefitCell::flush(const CellTrainingOptions& options) {
-  refitted_ = cell_->fit_again(photons_, options);
+  refitted_ = cell_->refit(photons_, options);
   photons_ = PhotonSample<WeightedPoint>(0);
   return 0;
 }

@@ -9,7 +9,7 @@
 #include "libguide/cache/mixture_growth.h"
 #include "libguide/directional/em_step.h"
 #include "libguide/directional/frame_carry.h"
-#include "libguide/directional/mixture_refinement.h"
+#include "libguide/directional/mixture_refit.h"
 #include "libguide/math/frame.h"
 #include "libguide/math/warp.h"
 
@@ -141,16 +141,16 @@ std::optional<WeightedPoint> TrainingCell::point_of(const Photon& photon, float 
                        weight_of(photon, emitted) * factor};
 }
 
-bool TrainingCell::fit_again(const PhotonSample<WeightedPoint>& photons,
-                             const CellTrainingOptions& options) {
+bool TrainingCell::refit(const PhotonSample<WeightedPoint>& photons,
+                         const CellTrainingOptions& options) {
   const std::vector<WeightedPoint>& kept = photons.kept();
   const double old = options.old_share * record_.photon_count, learned = record_.photon_count - old;
   const BatchWeights weights = scan_weights(kept, kMaxTrainingWeight);
   if (weights.used < kRefitPhotons || photons.seen() < kRefitShare * learned) return false;
   const double fitted = static_cast<double>(kept.size()) / (photons.seen() + old);
   const double share = std::max(kLearnedShare, 1 - fitted);
-  replace_mixture(refine_mixture(kept, components(), options.components, options.prior,
-                                 static_cast<float>(share)));
+  replace_mixture(refit_mixture(kept, components(), options.components, options.prior,
+                                static_cast<float>(share)));
   const double sum = weights.used / weights.scale, per_kept = photons.seen() / kept.size();
   state_evidence(photons.seen(), per_kept * sum, per_kept * sum * sum / weights.effective, old);
   return true;

@@ -71,7 +71,7 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   // Fits the mixture again, to a part of all photons of the stream that lie in the cell, which take
   // the place of those of the stream in its evidence. False where it is left as it is: they are
   // few, also against those that it has learned from.
-  bool fit_again(const PhotonSample<WeightedPoint>& photons, const CellTrainingOptions& options);
+  bool refit(const PhotonSample<WeightedPoint>& photons, const CellTrainingOptions& options);
 
   // The cell as one of the two children of its split. Across a position split the lobes, and half
   // of their evidence, are inherited: the light is nearly the same, and new photons soon outweigh

@@ -56,7 +56,7 @@ void MissingLobes::Bin::add(const Point& p) {
 }
 
 void MissingLobes::look_at(const Bin& bin, float side, const GaussianMixture& mixture,
-                           Found& best) const {
+                           Found& best) {
   if (bin.effective_points() < kMinPoints) return;
   const ComponentStatistics& s = bin.statistics;
   const double density = mixture.pdf({s.s1_x / s.s0, s.s1_y / s.s0});

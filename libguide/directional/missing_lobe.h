@@ -10,6 +10,8 @@
 
 namespace waylight {
 
+class GaussianMixture;
+
 // Looks at points of the disk in bins of two thirds of a degree to ten degrees.
 class MissingLobes {
  public:
@@ -43,7 +45,7 @@ class MissingLobes {
     double gain = 0;  // nats a sample
   };
 
-  void look_at(const Bin& bin, float side, const class GaussianMixture& mixture, Found& best) const;
+  static void look_at(const Bin& bin, float side, const GaussianMixture& mixture, Found& best);
 
   std::vector<Point> points_;  // in the order of bins
   float effective_ = 0;

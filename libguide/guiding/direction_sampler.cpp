@@ -14,6 +14,15 @@ void open(std::optional<CellGuide>& guide, const GuideCacheView& cache, const Ca
   if (!guide->valid()) guide.reset();
 }
 
+bool may_guide(const DirectionOptions& options, const GuidingCaches& caches) {
+  return options.guide != DirectionGuide::none && caches.guided();
+}
+
+// The shading normal on the side of wo.
+Vec3 facing(const SurfacePoint& at, const Vec3& wo) {
+  return at.ns.dot(wo) < 0 ? Vec3(-at.ns) : at.ns;
+}
+
 float irradiance(const std::optional<CellGuide>& guide) {
   return guide ? guide->cell().irradiance : 0;
 }
@@ -24,26 +33,26 @@ DirectionSampler::DirectionSampler(const Scene& scene, const GuidingCaches& cach
                                    const DirectionOptions& options, const SurfacePoint& at,
                                    const Vec3& wo, TransportMode mode)
     : options_(options),
+      here_(may_guide(options, caches) ? caches.locate(at.p, facing(at, wo)) : 0),
       resolved_(scene.bsdf(at, wo, mode)),
       ng_(at.ng),
       wo_local_(resolved_.frame.to_local(wo)),
       ng_side_(resolved_.frame.n.dot(at.ng) >= 0 ? 1.0f : -1.0f),
       has_smooth_(resolved_.bsdf.has_smooth()),
       delta_prob_(resolved_.bsdf.delta_prob(wo_local_)) {
-  if (options.guide != DirectionGuide::none && has_smooth_ && delta_prob_ < 1)
-    prepare_guide(caches, at, wo);
+  if (may_guide(options, caches) && has_smooth_ && delta_prob_ < 1)
+    prepare_guide(caches, at, facing(at, wo));
 }
 
 void DirectionSampler::prepare_guide(const GuidingCaches& caches, const SurfacePoint& at,
-                                     const Vec3& wo) {
-  const Vec3 normal = at.ns.dot(wo) < 0 ? Vec3(-at.ns) : at.ns;
+                                     const Vec3& normal) {
   if (resolved_.bsdf.smooth_transmissive()) {
     known_ = prepare_sides(caches, at, normal);
     choose(caches, cell());
   } else if (wo_local_.z() > 0) {
-    const CacheCell* known = caches.guide().query(at.p, normal);
-    irradiance_ = known ? known->irradiance : 0;
-    open(near_, caches.guide(), choose(caches, known));
+    const CacheCell* here = caches.guide().guide_at(here_, at.p, normal);
+    irradiance_ = here ? here->irradiance : 0;
+    open(near_, caches.guide(), choose(caches, here));
     if (near_ &&
         (options_.guide == DirectionGuide::product || options_.guide == DirectionGuide::mixture))
       known_ = prepare_fit(caches, at);
@@ -70,8 +79,9 @@ const CacheCell* DirectionSampler::choose(const GuidingCaches& caches, const Cac
 // BSDF on the sides that are known.
 float DirectionSampler::prepare_sides(const GuidingCaches& caches, const SurfacePoint& at,
                                       const Vec3& normal) {
-  open(near_, caches.guide(), caches.guide().query(at.p, normal));
-  open(far_, caches.guide(), caches.guide().query(at.p, -normal));
+  const uint32_t there = caches.locate(at.p, -normal);
+  open(near_, caches.guide(), caches.guide().guide_at(here_, at.p, normal));
+  open(far_, caches.guide(), caches.guide().guide_at(there, at.p, -normal));
   const SideShares shares = resolved_.bsdf.side_shares(wo_local_);
   const float near = shares.reflected * irradiance(near_);
   const float far = shares.transmitted * irradiance(far_);

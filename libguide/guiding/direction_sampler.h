@@ -78,7 +78,7 @@ class DirectionSampler {
  private:
   struct Candidate;
 
-  void prepare_guide(const GuidingCaches& caches, const SurfacePoint& at, const Vec3& wo);
+  void prepare_guide(const GuidingCaches& caches, const SurfacePoint& at, const Vec3& normal);
   float prepare_sides(const GuidingCaches& caches, const SurfacePoint& at, const Vec3& normal);
   const CacheCell* choose(const GuidingCaches& caches, const CacheCell* cell);
   float prepare_fit(const GuidingCaches& caches, const SurfacePoint& at);
@@ -95,6 +95,7 @@ class DirectionSampler {
   bool same_side(const Vec3& wi, const Vec3& wi_local) const;
 
   DirectionOptions options_;  // guide and share as they are here
+  uint32_t here_;  // the cell on the side of wo; located first, since it takes long to be read
   ResolvedBsdf resolved_;
   Vec3 ng_, wo_local_;
   float ng_side_;  // -1 where the shading frame was flipped against ng, else 1

@@ -46,9 +46,12 @@ GuidingCaches::GuidingCaches(const BrdfCache* brdf, const GuideCacheView& guide,
                              std::span<const Material> materials, std::span<const Medium> media)
     : brdf_(brdf),
       guide_(guide),
+      finder_(guide.nodes),
       media_(guide.medium, media),
       fit_of_material_(materials.size(), {-1, -1}),
       uniform_(materials.size(), {false, false}) {
+  for (const CacheCell& cell : guide.cells)
+    first_component_.push_back(cell.component_count > 0 ? cell.first_component : 0);
   if (!brdf_) return;
   prepare_lobes();
   prepare_materials(materials);

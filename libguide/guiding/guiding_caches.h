@@ -10,6 +10,7 @@
 #include "libguide/guiding/cell_choices.h"
 #include "libguide/guiding/medium_guides.h"
 #include "libguide/records/brdf_cache.h"
+#include "libguide/spatial/leaf_finder.h"
 
 namespace waylight {
 
@@ -36,6 +37,15 @@ class GuidingCaches {
 
   bool guided() const { return !guide_.cells.empty(); }
   const GuideCacheView& guide() const { return guide_; }
+  // The cell that holds a point of a surface; only where there are cells. What it knows is on its
+  // way from memory when this returns: do something else before it is asked for.
+  uint32_t locate(const Vec3& position, const Vec3& normal) const {
+    const uint32_t cell = finder_.find(position, normal);
+    fetch(guide_.components.data() + first_component_[cell]);
+    __builtin_prefetch(&guide_.cells[cell]);
+    if (!guide_.reaches.empty()) __builtin_prefetch(&guide_.reaches[cell]);
+    return cell;
+  }
   const MediumGuides& media() const { return media_; }
   // What was fitted to f of the material for wo (shading frame, upper side), where its width is
   // textured for the nearest to the width at uv; empty when it has no fit. from_behind: the back of
@@ -57,12 +67,20 @@ class GuidingCaches {
   void learned(std::vector<CellChoice> choices) { choices_ = std::move(choices); }  // by cell
 
  private:
+  // A mixture is one to three cache lines.
+  static void fetch(const GaussianComponent* components) {
+    for (int line = 0; line < 3; ++line)
+      __builtin_prefetch(reinterpret_cast<const char*>(components) + 64 * line);
+  }
+
   void prepare_lobes();
   void prepare_materials(std::span<const Material> materials);
 
   const BrdfCache* brdf_ = nullptr;
   std::vector<BrdfLobe> lobes_;  // by brdf_->entries
   GuideCacheView guide_;
+  LeafFinder finder_;
+  std::vector<uint32_t> first_component_;  // by cell, where it is close at hand
   MediumGuides media_;
   // By material, for its front and its back: index into brdf_->materials, or -1.
   std::vector<std::array<int, 2>> fit_of_material_;

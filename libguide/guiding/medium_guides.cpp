@@ -41,7 +41,7 @@ MediumGuides::PhaseGuides::PhaseGuides(const MediumCacheView& cache, float mean_
 }
 
 MediumGuides::MediumGuides(const MediumCacheView& cache, std::span<const Medium> media)
-    : nodes_(cache.nodes) {
+    : nodes_(cache.nodes), finder_(cache.nodes) {
   std::vector<float> cosines;
   for (const Medium& medium : media) {
     const float g = mean_cosine(medium.phase);

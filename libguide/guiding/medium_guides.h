@@ -10,6 +10,7 @@
 #include "libguide/directional/vmf_convolution.h"
 #include "libguide/math/octahedral.h"
 #include "libguide/medium/medium.h"
+#include "libguide/spatial/leaf_finder.h"
 #include "libguide/spatial/leaf_walk.h"
 
 namespace waylight {
@@ -89,7 +90,7 @@ class MediumGuides {
   const PhaseLobes& phase(int medium) const { return phases_[phase_of_medium_[medium]].lobes; }
   const ScatteredBins& bins(int medium) const { return phases_[phase_of_medium_[medium]].bins; }
   const MediumGuide& at(int medium, const Vec3& p) const {
-    return guide(medium, find_leaf(nodes_, p, Vec3::UnitZ()));
+    return guide(medium, finder_.find(p, Vec3::UnitZ()));
   }
   LeafWalk walk(const Ray& ray, float t_max) const { return LeafWalk(nodes_, ray, t_max); }
   const MediumGuide& guide(int medium, uint32_t cell) const {
@@ -114,6 +115,7 @@ class MediumGuides {
   };
 
   std::span<const CacheNode> nodes_;
+  LeafFinder finder_;
   std::vector<int> phase_of_medium_;
   std::vector<PhaseGuides> phases_;
   std::vector<float> direct_shares_;  // of the cells, apart from their guides, which are large

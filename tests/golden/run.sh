@@ -42,7 +42,7 @@ left() {
 
 interrupted() { timeout --foreground --preserve-status -s INT "$@"; }
 
-# Word by word; numbers by value.
+# Word by word, also between commas; numbers by value.
 agree() {
   awk -v expected="$1" '
     function number(w) { gsub(/[",:;()\[\]]/, "", w); return w ~ /^[-+]?[0-9]*\.?[0-9]+(e[-+]?[0-9]+)?$/ ? w : "" }
@@ -55,7 +55,7 @@ agree() {
       return d <= 0.002 * m + 1e-6
     }
     { if ((getline line < expected) <= 0) exit 1
-      n = split($0, a, /[ \t]+/); if (n != split(line, b, /[ \t]+/)) exit 1
+      n = split($0, a, /[ \t]+|,/); if (n != split(line, b, /[ \t]+|,/)) exit 1
       for (i = 1; i <= n; ++i) if (!same(a[i], b[i])) exit 1 }
     END { if ((getline line < expected) > 0) exit 1 }' "$2"
 }

@@ -186,12 +186,12 @@ TEST(CacheTrain, ResultDoesNotDependOnThreads) {
   EXPECT_EQ(bytes[0], bytes[1]);
 }
 
-GuideCache train_and_refine(std::span<const Photon> photons, uint64_t emitted, size_t cut,
-                            CacheTrainSummary* summary = nullptr) {
+GuideCache train_and_refit(std::span<const Photon> photons, uint64_t emitted, size_t cut,
+                           CacheTrainSummary* summary = nullptr) {
   CacheTrainer trainer({}, floor_info(emitted));
   trainer.consume(photons);
   for (size_t begin = 0; begin < photons.size(); begin += cut)
-    trainer.refine(photons.subspan(begin, std::min(cut, photons.size() - begin)));
+    trainer.refit(photons.subspan(begin, std::min(cut, photons.size() - begin)));
   GuideCache cache = trainer.finish(summary);
   EXPECT_EQ(check(GuideCacheView(cache)), "");
   return cache;
@@ -199,25 +199,25 @@ GuideCache train_and_refine(std::span<const Photon> photons, uint64_t emitted, s
 
 TEST(CacheTrain, RefiningDoesNotDependOnThreadsOrOnHowTheStreamIsCut) {
   const std::vector<Photon> photons = floor_photons(60'000);
-  const std::string whole = bytes_of(train_and_refine(photons, 60'000, photons.size()));
+  const std::string whole = bytes_of(train_and_refit(photons, 60'000, photons.size()));
   EXPECT_NE(whole, bytes_of(train(photons, floor_info(60'000))));
   const ThreadLimit limit(1);
-  EXPECT_EQ(bytes_of(train_and_refine(photons, 60'000, 777)), whole);
+  EXPECT_EQ(bytes_of(train_and_refit(photons, 60'000, 777)), whole);
 }
 
 TEST(CacheTrain, RefinedMixturesAreCloserToTheLight) {
   const std::vector<Photon> photons = floor_photons(100'000);
   CacheTrainSummary summary;
-  const GuideCache refined = train_and_refine(photons, 100'000, photons.size(), &summary);
+  const GuideCache refitted = train_and_refit(photons, 100'000, photons.size(), &summary);
   EXPECT_GT(summary.mixtures_refitted, summary.cells * 9 / 10);
   const double once = mean_comparison(train(photons, floor_info(100'000))).distance;
-  EXPECT_LT(mean_comparison(refined).distance, 0.97 * once);
+  EXPECT_LT(mean_comparison(refitted).distance, 0.97 * once);
 }
 
 TEST(CacheTrain, RefinedCellsOwnTheEvidenceOfTheirPhotonsBoundedAsInTraining) {
   std::vector<Photon> photons = floor_photons(100'000);
   photons[photons.size() / 2].power *= 1e5f;
-  const GuideCache cache = train_and_refine(photons, 100'000, photons.size());
+  const GuideCache cache = train_and_refit(photons, 100'000, photons.size());
   double sum = 0;
   for (const CacheCell& cell : cache.cells) {
     EXPECT_GT(cell.effective_samples, 0.1f * cell.photon_count);
@@ -230,7 +230,7 @@ TEST(CacheTrain, RefiningKeepsTheEvidenceOfEarlierStreams) {
   const std::vector<Photon> first = floor_photons(50'000, 1), second = floor_photons(50'000, 2);
   CacheTrainer trainer({}, floor_info(50'000), train(first, floor_info(50'000)));
   trainer.consume(second);
-  trainer.refine(second);
+  trainer.refit(second);
   CacheTrainSummary summary;
   const GuideCache cache = trainer.finish(&summary);
   EXPECT_GT(summary.mixtures_refitted, summary.cells * 3 / 4);
@@ -244,7 +244,7 @@ TEST(CacheTrain, RefusesPhotonsAfterTheSameAgain) {
   const std::vector<Photon> photons = floor_photons(1000);
   CacheTrainer trainer({}, floor_info(1000));
   trainer.consume(photons);
-  trainer.refine(photons);
+  trainer.refit(photons);
   EXPECT_THROW(trainer.consume(photons), Error);
 }
 

@@ -50,12 +50,12 @@ void train(PhotonReader& reader, CacheTrainer& trainer, const ToolRun& run) {
            });
 }
 
-void refine(const PhotonReader& first, const std::string& path, CacheTrainer& trainer,
-            const ToolRun& run) {
+void refit(const PhotonReader& first, const std::string& path, CacheTrainer& trainer,
+           const ToolRun& run) {
   PhotonReader reader(path);
   read_all(reader, run, "photons again",
            [&](const auto& photons, const auto& /*escapes*/, const auto& /*in_media*/) {
-             trainer.refine(photons);
+             trainer.refit(photons);
            });
   if (reader.content_hash() != first.content_hash())
     fail("\"{}\": changed while it was read: run the training again", path);
@@ -176,7 +176,7 @@ void cache_train(const ToolRun& run, const ToolInfo& tool, const CacheTrainArgum
   CacheTrainer trainer(arguments.options, header.stream, std::move(previous.cache));
   train(reader, trainer, run);
   const bool again = reads_again(arguments, reader);
-  if (again) refine(reader, arguments.photons, trainer, run);
+  if (again) refit(reader, arguments.photons, trainer, run);
   CacheTrainSummary summary;
   CacheFile file;
   file.cache = trainer.finish(&summary);

@@ -15,9 +15,9 @@ namespace waylight {
 // against as many iterations without it, by what the Bayesian criterion asks for; where there are
 // `components` (1..8) of them, two that differ least become one for it. Returns `start` where no
 // point is valid.
-std::vector<GaussianComponent> refine_mixture(std::span<const WeightedPoint> points,
-                                              std::span<const GaussianComponent> start,
-                                              int components, const MixturePrior& prior,
-                                              float start_share);
+std::vector<GaussianComponent> refit_mixture(std::span<const WeightedPoint> points,
+                                             std::span<const GaussianComponent> start,
+                                             int components, const MixturePrior& prior,
+                                             float start_share);
 
 }  // namespace waylight

@@ -1,4 +1,4 @@
-#include "libguide/directional/mixture_refinement.h"
+#include "libguide/directional/mixture_refit.h"
 
 #include <cmath>
 
@@ -51,10 +51,10 @@ std::optional<EmResult> with_missing_lobe(std::span<const WeightedPoint> points,
 
 }  // namespace
 
-std::vector<GaussianComponent> refine_mixture(std::span<const WeightedPoint> points,
-                                              std::span<const GaussianComponent> start,
-                                              int components, const MixturePrior& prior,
-                                              float start_share) {
+std::vector<GaussianComponent> refit_mixture(std::span<const WeightedPoint> points,
+                                             std::span<const GaussianComponent> start,
+                                             int components, const MixturePrior& prior,
+                                             float start_share) {
   EmOptions options;
   options.components = components;
   options.prior = prior;

@@ -1,4 +1,4 @@
-#include "libguide/directional/mixture_refinement.h"
+#include "libguide/directional/mixture_refit.h"
 
 #include <gtest/gtest.h>
 
@@ -63,9 +63,9 @@ TEST(MissingLobes, FindNothingWithoutValidPoints) {
 
 TEST(RefineMixture, GivesABeamALobeOfItsOwn) {
   const std::vector<WeightedPoint> points = points_with_beam();
-  const auto refined = refine_mixture(points, std::span(&kWide, 1), 8, {}, 0.3f);
+  const auto refitted = refit_mixture(points, std::span(&kWide, 1), 8, {}, 0.3f);
   const Vec2 beam = kBeam + Vec2(5e-4f, 2e-4f);
-  EXPECT_GT(density(refined, beam), 50 * density(std::span(&kWide, 1), beam));
+  EXPECT_GT(density(refitted, beam), 50 * density(std::span(&kWide, 1), beam));
   EmOptions em;  // which alone takes the beam for a part of the lobe
   const auto by_em = fit_mixture(points, em, std::span(&kWide, 1)).components;
   EXPECT_LT(density(by_em, beam), 2 * density(std::span(&kWide, 1), beam));
@@ -77,15 +77,15 @@ TEST(RefineMixture, PutsTheLobeInPlaceOfAnotherWhereThereIsNoRoom) {
   em.components = 8;
   const auto start = fit_mixture(points_of(kWide, 500), em).components;
   ASSERT_EQ(start.size(), 8u);
-  const auto refined = refine_mixture(points, start, 8, {}, 0.3f);
-  EXPECT_LE(refined.size(), 8u);
-  EXPECT_GT(density(refined, kBeam), 50 * density(start, kBeam));
+  const auto refitted = refit_mixture(points, start, 8, {}, 0.3f);
+  EXPECT_LE(refitted.size(), 8u);
+  EXPECT_GT(density(refitted, kBeam), 50 * density(start, kBeam));
 }
 
 TEST(RefineMixture, HasNoMoreLobesThanItMay) {
   for (const int most : {1, 2}) {
-    const auto refined = refine_mixture(points_with_beam(), std::span(&kWide, 1), most, {}, 0.3f);
-    EXPECT_EQ(refined.size(), static_cast<size_t>(most));
+    const auto refitted = refit_mixture(points_with_beam(), std::span(&kWide, 1), most, {}, 0.3f);
+    EXPECT_EQ(refitted.size(), static_cast<size_t>(most));
   }
 }
 
@@ -98,23 +98,23 @@ TEST(RefineMixture, GivesALobeNoCreditForWhatEmGainsAnyway) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     std::vector<WeightedPoint> points = points_of(kWide, 200, seed);
     for (const WeightedPoint& p : points_of(other, 200, seed + 100)) points.push_back(p);
-    EXPECT_EQ(refine_mixture(points, start, 8, {}, 0.3f).size(), 2u) << "seed " << seed;
+    EXPECT_EQ(refit_mixture(points, start, 8, {}, 0.3f).size(), 2u) << "seed " << seed;
   }
 }
 
 TEST(RefineMixture, AddsNoLobeToPointsOfTheMixtureItself) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const auto refined =
-        refine_mixture(points_of(kWide, 400, seed), std::span(&kWide, 1), 8, {}, 0.3f);
-    EXPECT_EQ(refined.size(), 1u) << "seed " << seed;
+    const auto refitted =
+        refit_mixture(points_of(kWide, 400, seed), std::span(&kWide, 1), 8, {}, 0.3f);
+    EXPECT_EQ(refitted.size(), 1u) << "seed " << seed;
   }
 }
 
 TEST(RefineMixture, KeepsTheMixtureWithoutValidPoints) {
   const WeightedPoint bad{Vec2(0, 0), -1};
-  const auto refined = refine_mixture(std::span(&bad, 1), std::span(&kWide, 1), 8, {}, 0.3f);
-  ASSERT_EQ(refined.size(), 1u);
-  EXPECT_EQ(refined[0].mean_x, kWide.mean_x);
+  const auto refitted = refit_mixture(std::span(&bad, 1), std::span(&kWide, 1), 8, {}, 0.3f);
+  ASSERT_EQ(refitted.size(), 1u);
+  EXPECT_EQ(refitted[0].mean_x, kWide.mean_x);
 }
 
 }  // namespace
