@@ -85,7 +85,7 @@ struct CacheTrainer::Impl {
   void consume(std::span<const MediumPhoton> photons);
   void consume(std::span<const Escape> escapes);
   void refit(std::span<const Photon> photons);
-  GuideCache finish(CacheTrainSummary* summary);
+  GuideCache finish(CacheTrainSummary* summary, const RunControl& control);
 
  private:
   void start_cache(const PhotonStreamInfo& stream, const GuideCache& previous);
@@ -94,7 +94,7 @@ struct CacheTrainer::Impl {
   }
   SurfaceRules surface_rules(const CacheTrainOptions& options) const;
   MediumRules medium_rules(const CacheTrainOptions& options) const;
-  void finish_surfaces();
+  void finish_surfaces(const RunControl& control);
   void finish_media();
   void summarise(CacheTrainSummary& summary) const;
 
@@ -199,17 +199,17 @@ void CacheTrainer::Impl::refit(std::span<const Photon> photons) {
   refits_->consume(photons);
 }
 
-GuideCache CacheTrainer::Impl::finish(CacheTrainSummary* summary) {
-  finish_surfaces();
+GuideCache CacheTrainer::Impl::finish(CacheTrainSummary* summary, const RunControl& control) {
+  finish_surfaces(control);
   finish_media();
   escapes_.store(cache_);
   if (summary) summarise(*summary);
   return std::move(cache_);
 }
 
-void CacheTrainer::Impl::finish_surfaces() {
+void CacheTrainer::Impl::finish_surfaces(const RunControl& control) {
   if (refits_)
-    refits_->finish();
+    refits_->finish(control);
   else
     surfaces_.finish();
   cache_.photons = surfaces_.photons();
@@ -282,9 +282,9 @@ void CacheTrainer::consume(std::span<const MediumPhoton> batch) { running(impl_)
 void CacheTrainer::consume(std::span<const Escape> batch) { running(impl_).consume(batch); }
 void CacheTrainer::refit(std::span<const Photon> batch) { running(impl_).refit(batch); }
 
-GuideCache CacheTrainer::finish(CacheTrainSummary* summary) {
+GuideCache CacheTrainer::finish(CacheTrainSummary* summary, const RunControl& control) {
   const std::unique_ptr<Impl> impl = std::move(impl_);
-  return running(impl).finish(summary);
+  return running(impl).finish(summary, control);
 }
 
 }  // namespace waylight

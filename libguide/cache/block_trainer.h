@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libguide/base/parallel.h"
+#include "libguide/base/run_control.h"
 #include "libguide/spatial/leaf_order.h"
 
 namespace waylight {
@@ -35,7 +36,8 @@ class BlockTrainer {
       : tree_(std::move(tree)), rules_(rules), photons_(photons) {}
 
   void consume(std::span<const Photon> photons);
-  void finish();
+  // control: told of the cells as they learn from their last photons.
+  void finish(const RunControl& control = {});
 
   Tree& tree() { return tree_; }
   const Tree& tree() const { return tree_; }
@@ -45,7 +47,7 @@ class BlockTrainer {
 
  private:
   static constexpr size_t kMinBlock = 1 << 12, kMaxBlock = 1 << 18;
-  static constexpr size_t kPhotonsPerTask = 1 << 12;
+  static constexpr size_t kPhotonsPerTask = 1 << 12, kCellsPerReport = 1 << 10;
 
   void process_block();
   void find_leaves();
@@ -126,11 +128,17 @@ void BlockTrainer<Photon, Tree, Rules>::absorb_block() {
 }
 
 template <typename Photon, typename Tree, typename Rules>
-void BlockTrainer<Photon, Tree, Rules>::finish() {
+void BlockTrainer<Photon, Tree, Rules>::finish(const RunControl& control) {
   if (!block_.empty()) process_block();
-  capped_.resize(tree_.size());
-  parallel_for(tree_.size(), [&](size_t i) { capped_[i] = tree_[i].flush(rules_.cell); });
-  count_capped();
+  const size_t cells = tree_.size();
+  for (size_t first = 0; first < cells && !control.stopped(); first += kCellsPerReport) {
+    capped_.resize(std::min(kCellsPerReport, cells - first));
+    parallel_for(capped_.size(),
+                 [&](size_t i) { capped_[i] = tree_[first + i].flush(rules_.cell); });
+    count_capped();
+    control.progress(static_cast<double>(first + capped_.size()), static_cast<double>(cells),
+                     "cells fitted");
+  }
 }
 
 }  // namespace waylight

@@ -84,29 +84,43 @@ inline size_t row_count(size_t points) { return (points + kLanes - 1) / kLanes; 
 // Rows whose responsibilities fit the first-level cache of the processor, and that are summed in
 // float before they go into doubles.
 inline constexpr size_t kBlockRows = 16;
-using Shares = Lanes[kMaxEmComponents][kBlockRows];  // responsibility times weight
+using BlockLanes = Lanes[kBlockRows];
+using Shares = BlockLanes[kMaxEmComponents];  // responsibility times weight
 
 enum class Likelihood { skip, sum };
+
+// Component by component, rows inside: what rows do does not depend on each other, so the processor
+// need not wait for one to be done with another.
+template <typename Row, typename Model>
+void log2_densities(std::span<const Row> rows, std::span<const Model> model, Shares& densities,
+                    BlockLanes& largest) {
+  for (size_t r = 0; r < rows.size(); ++r) largest[r] = splat(-1e30f);
+  for (size_t k = 0; k < model.size(); ++k)
+    for (size_t r = 0; r < rows.size(); ++r) {
+      densities[k][r] = model[k].log2_density(rows[r]);
+      largest[r] = lanes_max(largest[r], densities[k][r]);
+    }
+}
 
 // model[k].log2_density(row) is log2 of weight times density. Subtracting the largest before the
 // exponential keeps a point far from all lobes with the nearest one. Returns the weighted sum of
 // log2 of the mixture's density if asked for.
 template <Likelihood likelihood, typename Row, typename Model>
 double share_out(std::span<const Row> rows, std::span<const Model> model, Shares& shares) {
+  const size_t count = rows.size();
+  BlockLanes largest, sum, scale;
+  log2_densities(rows, model, shares, largest);
+  for (size_t r = 0; r < count; ++r) sum[r] = Lanes{};
+  for (size_t k = 0; k < model.size(); ++k)
+    for (size_t r = 0; r < count; ++r)
+      sum[r] += shares[k][r] = exp2_clamped(shares[k][r] - largest[r]);
+  for (size_t r = 0; r < count; ++r) scale[r] = rows[r].weight / sum[r];
+  for (size_t k = 0; k < model.size(); ++k)
+    for (size_t r = 0; r < count; ++r) shares[k][r] *= scale[r];
   Lanes log2_likelihood{};
-  for (size_t r = 0; r < rows.size(); ++r) {
-    Lanes largest = splat(-1e30f), sum{};
-    for (size_t k = 0; k < model.size(); ++k) {
-      shares[k][r] = model[k].log2_density(rows[r]);
-      largest = lanes_max(largest, shares[k][r]);
-    }
-    for (size_t k = 0; k < model.size(); ++k)
-      sum += shares[k][r] = exp2_clamped(shares[k][r] - largest);
-    const Lanes scale = rows[r].weight / sum;
-    for (size_t k = 0; k < model.size(); ++k) shares[k][r] *= scale;
-    if constexpr (likelihood == Likelihood::sum)
-      log2_likelihood += rows[r].weight * (largest + lanes_log2(sum));
-  }
+  if constexpr (likelihood == Likelihood::sum)
+    for (size_t r = 0; r < count; ++r)
+      log2_likelihood += rows[r].weight * (largest[r] + lanes_log2(sum[r]));
   return lanes_sum(log2_likelihood);
 }
 

@@ -53,9 +53,13 @@ std::vector<Place> spread_centres(std::span<const double> weight, const PlaceOf&
 template <typename Place>
 int nearest(const Place& place, std::span<const Place> centres) {
   int best = 0;
-  for (size_t k = 1; k < centres.size(); ++k)
-    if ((place - centres[k]).squaredNorm() < (place - centres[best]).squaredNorm())
-      best = static_cast<int>(k);
+  float least = std::numeric_limits<float>::infinity();
+  for (size_t k = 0; k < centres.size(); ++k) {
+    const float distance2 = (place - centres[k]).squaredNorm();
+    if (!(distance2 < least)) continue;
+    least = distance2;
+    best = static_cast<int>(k);
+  }
   return best;
 }
 

@@ -19,21 +19,36 @@ void add_moments(std::span<const PointRow> rows, const Responsibility& component
   for (size_t m = 0; m < moments.size(); ++m) moments[m] += lanes_sum(sums[m]);
 }
 
-// From moments about the old mean to s1 about the origin and s2 about the new mean.
-ComponentStatistics recentred(const Moments& sums, double total, const GaussianComponent& c) {
+// Of the variances and of their determinant after an M-step, what over-relaxation has to leave.
+constexpr float kLeastVariance = 0.3f, kLeastDeterminant = 0.1f;
+
+float determinant(const GaussianComponent& c) { return c.cov_xx * c.cov_yy - sqr(c.cov_xy); }
+
+GaussianComponent beyond(const GaussianComponent& from, const GaussianComponent& to,
+                         float further) {
+  const auto go_on = [&](float a, float b) { return b + further * (b - a); };
+  return {to.weight * std::pow(to.weight / from.weight, further),
+          go_on(from.mean_x, to.mean_x),
+          go_on(from.mean_y, to.mean_y),
+          go_on(from.cov_xx, to.cov_xx),
+          go_on(from.cov_xy, to.cov_xy),
+          go_on(from.cov_yy, to.cov_yy)};
+}
+
+}  // namespace
+
+ComponentStatistics statistics_of(const Moments& sums, double total, const Vec2& origin) {
   const double s0 = sums[0] / total, sx = sums[1] / total, sy = sums[2] / total;
   if (!(s0 > 1e-30)) return {};
   ComponentStatistics s;
   s.s0 = s0;
-  s.s1_x = s0 * c.mean_x + sx, s.s1_y = s0 * c.mean_y + sy;
+  s.s1_x = s0 * origin.x() + sx, s.s1_y = s0 * origin.y() + sy;
   s.s2_xx = std::max(sums[3] / total - sx * sx / s0, 0.0);
   s.s2_yy = std::max(sums[5] / total - sy * sy / s0, 0.0);
   const double limit = std::sqrt(static_cast<double>(s.s2_xx) * s.s2_yy);
   s.s2_xy = std::clamp(sums[4] / total - sx * sy / s0, -limit, limit);
   return s;
 }
-
-}  // namespace
 
 bool valid_point(const WeightedPoint& point) {
   // Comparisons reject NaN, infinity and what lies off the domain.
@@ -96,7 +111,8 @@ BatchStatistics Expectation::finish() const {
   for (size_t k = 0; k < components_.size(); ++k) total += moments_[k][0];
   BatchStatistics result;
   for (size_t k = 0; k < components_.size(); ++k)
-    result.components[k] = recentred(moments_[k], total, components_[k]);
+    result.components[k] =
+        statistics_of(moments_[k], total, {components_[k].mean_x, components_[k].mean_y});
   result.log_likelihood = log2_likelihood_ * std::numbers::ln2 / total;
   return result;
 }
@@ -135,6 +151,21 @@ int maximization(std::span<ComponentStatistics> statistics, float samples,
                      (prior.b + n * s.s2_yy) * scale};
   }
   return count;
+}
+
+void over_relax(std::span<const GaussianComponent> before, float step,
+                std::span<GaussianComponent> components) {
+  if (before.size() != components.size()) return;
+  float sum = 0;
+  for (size_t k = 0; k < components.size(); ++k) {
+    GaussianComponent& c = components[k];
+    const GaussianComponent further = beyond(before[k], c, step - 1);
+    if (further.cov_xx > kLeastVariance * c.cov_xx && further.cov_yy > kLeastVariance * c.cov_yy &&
+        determinant(further) > kLeastDeterminant * determinant(c))
+      c = further;
+    sum += c.weight;
+  }
+  for (GaussianComponent& c : components) c.weight /= sum;
 }
 
 }  // namespace waylight

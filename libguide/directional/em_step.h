@@ -25,7 +25,10 @@ struct PointRow {
 void fill_rows(std::span<const WeightedPoint> points, const BatchWeights& weights,
                std::span<PointRow> rows);  // of row_count(points.size())
 
-using Moments = std::array<double, 6>;  // 1, x, y, xx, xy, yy about an old mean
+using Moments = std::array<double, 6>;  // sums of 1, x, y, xx, xy, yy about some origin
+
+// Statistics of a component from moments about `origin`, as shares of `total`.
+ComponentStatistics statistics_of(const Moments& sums, double total, const Vec2& origin);
 
 // One component in the form that the E-step needs.
 struct Responsibility {
@@ -65,5 +68,11 @@ ComponentStatistics blend(const ComponentStatistics& a, float keep, const Compon
 // both, the others moved to the front. Returns how many are left.
 int maximization(std::span<ComponentStatistics> statistics, float samples,
                  const MixturePrior& prior, std::span<GaussianComponent> components);
+
+// Moves components from where an M-step has taken them on in the same direction, to `step` times
+// the way: near a maximum, EM in steps of up to 2 still converges, and sooner [Peters, Walker
+// 1978]. Those whose covariance would all but vanish, and all where some were lost, stay.
+void over_relax(std::span<const GaussianComponent> before, float step,
+                std::span<GaussianComponent> components);
 
 }  // namespace waylight

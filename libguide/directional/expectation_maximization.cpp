@@ -68,7 +68,9 @@ EmResult fit_mixture(std::span<const WeightedPoint> points, const EmOptions& opt
   std::vector<PointRow> rows(row_count(points.size()));
   fill_rows(points, weights, rows);
   double previous = -std::numeric_limits<double>::infinity();
-  while (result.iterations < options.max_iterations) {
+  std::vector<GaussianComponent> before;
+  for (;;) {
+    before = result.components;
     Expectation expectation(result.components, Likelihood::sum);
     expectation.add(rows);
     BatchStatistics batch = expectation.finish();
@@ -78,9 +80,10 @@ EmResult fit_mixture(std::span<const WeightedPoint> points, const EmOptions& opt
     result.components.resize(
         maximization(statistics, weights.effective, options.prior, result.components));
     result.log_likelihood = batch.log_likelihood;
-    ++result.iterations;
+    if (++result.iterations >= options.max_iterations) break;
     if (batch.log_likelihood - previous < options.tolerance * std::abs(batch.log_likelihood)) break;
     previous = batch.log_likelihood;
+    if (options.step > 1) over_relax(before, options.step, result.components);
   }
   return result;
 }

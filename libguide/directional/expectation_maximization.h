@@ -27,6 +27,7 @@ struct WeightedPoint {
 struct EmOptions {
   int components = 8;  // 1..kMaxEmComponents
   int max_iterations = 32;
+  float step = 1;  // in [1, 2): over-relaxation, how far to go of the way that an M-step goes
   float tolerance = 1e-4f;  // relative change of the log-likelihood at which it stops
   float max_weight = kMaxTrainingWeight;
   MixturePrior prior;

@@ -19,6 +19,11 @@ constexpr int kSelectionPoints = 512, kReportPoints = 1024;
 constexpr float kCountTolerance = 0.02f;
 constexpr int kCounts[] = {12, 8, 6, 4, 3, 2, 1};
 
+// By the mean held-out error of EM over 648 lobes: 0.1515, and 0.1530 for 32 plain iterations,
+// which take twice as long; 12 have 0.1535, 24 gain 0.001. More fit the points too well.
+constexpr int kEmIterations = 16;
+constexpr float kEmStep = 1.8f;
+
 // Sequences of random numbers.
 enum Stream : uint64_t {
   kLobeStream,
@@ -48,6 +53,8 @@ EmOptions em_options(const LobeFitOptions& options) {
   EmOptions em;
   em.components = options.components;
   em.prior = options.prior;
+  em.max_iterations = kEmIterations;
+  em.step = kEmStep;
   return em;
 }
 

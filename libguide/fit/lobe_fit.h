@@ -48,8 +48,7 @@ class LobeFitter {
   std::vector<LobePoint> draw_points(const LobeTargets& targets) const;
 
   // Weighted MAP EM from one start. Measured over 20 lobes: further starts by k-means++ gain
-  // nothing on the mean, four times the points a fifth of the error for four times the time, and
-  // more than 32 iterations lose by fitting the points too well.
+  // nothing on the mean, and four times the points a fifth of the error for four times the time.
   std::vector<GaussianComponent> fit_em(const LobeTargets& targets,
                                         std::span<const LobePoint> points) const;
 

@@ -179,7 +179,7 @@ void cache_train(const ToolRun& run, const ToolInfo& tool, const CacheTrainArgum
   if (again) refit(reader, arguments.photons, trainer, run);
   CacheTrainSummary summary;
   CacheFile file;
-  file.cache = trainer.finish(&summary);
+  file.cache = trainer.finish(&summary, run.control);
   file.provenance = provenance(run, tool, arguments, reader);
   run.stop_if_interrupted();
   write_cache(arguments.output, file);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "libguide/directional/mixture_check.h"
 #include "unit/directional/mixtures.h"
 
 namespace waylight {
@@ -44,6 +45,38 @@ TEST(FitMixture, RecoversAKnownMixture) {
     EXPECT_NEAR(found->cov_yy, expected.cov_yy, 0.08f * expected.cov_yy);
   }
   EXPECT_LT(difference(GaussianMixture(fit.components), truth), 0.03);
+}
+
+TEST(FitMixture, OverRelaxedIsAsFarInHalfTheIterations) {
+  const std::vector<WeightedPoint> points = drawn_points(GaussianMixture(known()), 2048, 4);
+  EmOptions plain;
+  plain.components = 8, plain.tolerance = 0, plain.max_iterations = 32;
+  EmOptions relaxed = plain;
+  relaxed.step = 1.8f, relaxed.max_iterations = 18;
+  EXPECT_GE(fit_mixture(points, relaxed).log_likelihood, fit_mixture(points, plain).log_likelihood);
+}
+
+TEST(FitMixture, OverRelaxedFindsTheSameMixture) {
+  const GaussianMixture truth(known());
+  const std::vector<WeightedPoint> points = drawn_points(truth, 2048, 4);
+  EmOptions options;
+  options.components = 3, options.tolerance = 0, options.max_iterations = 200;
+  const EmResult plain = fit_mixture(points, options);
+  options.step = 1.8f;
+  const EmResult relaxed = fit_mixture(points, options);
+  EXPECT_LT(difference(GaussianMixture(relaxed.components), GaussianMixture(plain.components)),
+            0.001);
+}
+
+TEST(FitMixture, OverRelaxedGivesValidComponentsWhateverTheStart) {
+  for (uint64_t seed = 0; seed < 50; ++seed) {
+    const std::vector<WeightedPoint> points = drawn_points(GaussianMixture(known()), 40, seed);
+    EmOptions options;
+    options.step = 1.9f, options.prior.b = 5e-6f;
+    options.max_iterations = 1 + static_cast<int>(seed % 32);
+    const EmResult fit = fit_mixture(points, options);
+    EXPECT_EQ(check_mixture(fit.components), "") << "seed " << seed;
+  }
 }
 
 TEST(FitMixture, WeightsOfUniformPointsGiveTheSameMixture) {
