@@ -94,7 +94,7 @@ struct CacheTrainer::Impl {
   }
   SurfaceRules surface_rules(const CacheTrainOptions& options) const;
   MediumRules medium_rules(const CacheTrainOptions& options) const;
-  void finish_surfaces(const RunControl& control);
+  void finish_surfaces();
   void finish_media();
   void summarise(CacheTrainSummary& summary) const;
 
@@ -200,18 +200,19 @@ void CacheTrainer::Impl::refit(std::span<const Photon> photons) {
 }
 
 GuideCache CacheTrainer::Impl::finish(CacheTrainSummary* summary, const RunControl& control) {
-  finish_surfaces(control);
+  if (refits_)
+    refits_->finish(control);
+  else
+    surfaces_.finish();
+  if (control.stopped()) return {};
+  finish_surfaces();
   finish_media();
   escapes_.store(cache_);
   if (summary) summarise(*summary);
   return std::move(cache_);
 }
 
-void CacheTrainer::Impl::finish_surfaces(const RunControl& control) {
-  if (refits_)
-    refits_->finish(control);
-  else
-    surfaces_.finish();
+void CacheTrainer::Impl::finish_surfaces() {
   cache_.photons = surfaces_.photons();
   clock_.photons = static_cast<double>(cache_.photons);
   clock_.particles = static_cast<double>(cache_.emitted);

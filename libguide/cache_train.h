@@ -78,7 +78,7 @@ class CacheTrainer {
   // is fitted anew to those in its cell, most of which the cells before it have learned from. (In
   // media, where cells see more photons, it did not lower the error of images.)
   void refit(std::span<const Photon> photons);
-  // control: told of the second fits; where it stops them, the result is not whole.
+  // control: told of the second fits; where it stops them, the result is empty.
   GuideCache finish(CacheTrainSummary* summary, const RunControl& control = {});
 
  private:

@@ -20,12 +20,14 @@ class TraitsWalk {
   void look_at(const Texture& texture) { traits_.textured |= !texture.constant(); }
   void look_at_widths(const Texture& u, const Texture& v) {
     look_at(u), look_at(v);
+    traits_.smooth = true;
     traits_.depends_on_wo = true;
     traits_.uniform = false;
     traits_.anisotropic |= u.mean().mean() != v.mean().mean();
   }
   void look_at_parts(const Texture& diffuse, const Texture& specular) {
     look_at(diffuse), look_at(specular);
+    traits_.smooth = true;
   }
 
   void visit(const TwoSidedMaterial& m, int depth) { walk(m.front, depth); }
@@ -44,7 +46,10 @@ class TraitsWalk {
     look_at(m.normals);
     walk(m.nested, depth);
   }
-  void visit(const DiffuseMaterial& m, int) { look_at(m.reflectance); }
+  void visit(const DiffuseMaterial& m, int) {
+    look_at(m.reflectance);
+    traits_.smooth = true;
+  }
   void visit(const NullMaterial&, int) {}
   void visit(const ConductorMaterial&, int) {}
   void visit(const DielectricMaterial&, int) {}

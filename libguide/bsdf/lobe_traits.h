@@ -9,7 +9,8 @@ namespace waylight {
 
 // Of the smooth part at mean parameters, seen from the front.
 struct LobeTraits {
-  bool uniform = true;           // f is the same for all wi of the hemisphere
+  bool smooth = false;         // there is such a part
+  bool uniform = true;         // f is the same for all wi of the hemisphere
   bool depends_on_wo = false;  // the shape of f as a function of wi; a factor does not count
   bool anisotropic = false;    // it also depends on the azimuth of wo
   bool textured = false;       // some parameter varies over the surface

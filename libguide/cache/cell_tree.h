@@ -4,6 +4,7 @@
 #include <deque>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "libguide/base/parallel.h"
@@ -79,6 +80,7 @@ class CellTree {
   void split(uint32_t cell, const CellSplit& split, Cell lower, Cell upper);
   bool is_leaf(uint32_t node) const { return nodes_[node].axis == kLeafAxis; }
   void find_nodes();
+  void permute_cells(std::vector<uint32_t>& order);
   std::vector<uint32_t> untried_pairs(std::vector<bool>& tried) const;
   void remove_dead(const std::vector<bool>& dead);
   void remove_unreached_nodes();
@@ -94,7 +96,7 @@ class CellTree {
                                          const CanLend& can_lend) const;
 
   std::vector<CacheNode> nodes_;
-  std::deque<Cell> cells_;  // never moved: growing a vector would need twice the memory
+  std::deque<Cell> cells_;  // grows without a second copy of all, as a vector would need
   std::vector<uint32_t> node_of_cell_;
   std::vector<uint8_t> depth_;  // of the cell's leaf
   LeafFinder finder_;           // of nodes_ as they are between calls
@@ -234,14 +236,14 @@ void CellTree<Cell>::remove_unreached_nodes() {
 template <typename Cell>
 void CellTree<Cell>::sort_by_place() {
   std::vector<CacheNode> nodes = {nodes_[0]};
-  std::deque<Cell> cells;
+  std::vector<uint32_t> order;  // the cells of now, in the order to come
   for (std::vector<uint32_t> open = {0}; !open.empty();) {
     CacheNode& node = nodes[open.back()];
     open.pop_back();
     const uint32_t from = node.child;
     if (node.axis == kLeafAxis) {
-      node.child = static_cast<uint32_t>(cells.size());
-      cells.push_back(std::move(cells_[from]));
+      node.child = static_cast<uint32_t>(order.size());
+      order.push_back(from);
       continue;
     }
     const uint32_t child = node.child = static_cast<uint32_t>(nodes.size());
@@ -249,8 +251,21 @@ void CellTree<Cell>::sort_by_place() {
     open.insert(open.end(), {child + 1, child});
   }
   nodes_ = std::move(nodes);
-  cells_ = std::move(cells);
+  permute_cells(order);
   find_nodes();
+}
+
+// Cycle by cycle: no more than one cell is in memory twice.
+template <typename Cell>
+void CellTree<Cell>::permute_cells(std::vector<uint32_t>& order) {
+  for (uint32_t first = 0; first < order.size(); ++first) {
+    if (order[first] == first) continue;
+    Cell lifted = std::move(cells_[first]);
+    uint32_t to = first;
+    for (uint32_t from; (from = std::exchange(order[to], to)) != first; to = from)
+      cells_[to] = std::move(cells_[from]);
+    cells_[to] = std::move(lifted);
+  }
 }
 
 template <typename Cell>

@@ -27,7 +27,8 @@ float determinant(const GaussianComponent& c) { return c.cov_xx * c.cov_yy - sqr
 GaussianComponent beyond(const GaussianComponent& from, const GaussianComponent& to,
                          float further) {
   const auto go_on = [&](float a, float b) { return b + further * (b - a); };
-  return {to.weight * std::pow(to.weight / from.weight, further),
+  const float ratio = to.weight / from.weight;  // lobes that shrink do so geometrically
+  return {ratio > 1 ? go_on(from.weight, to.weight) : to.weight * std::pow(ratio, further),
           go_on(from.mean_x, to.mean_x),
           go_on(from.mean_y, to.mean_y),
           go_on(from.cov_xx, to.cov_xx),

@@ -71,7 +71,8 @@ int maximization(std::span<ComponentStatistics> statistics, float samples,
 
 // Moves components from where an M-step has taken them on in the same direction, to `step` times
 // the way: near a maximum, EM in steps of up to 2 still converges, and sooner [Peters, Walker
-// 1978]. Those whose covariance would all but vanish, and all where some were lost, stay.
+// 1978]. Weights that fall do so by the same factor again, so that none is lost, and sum to 1.
+// Components whose covariance would all but vanish, and all where some were lost, stay.
 void over_relax(std::span<const GaussianComponent> before, float step,
                 std::span<GaussianComponent> components);
 

@@ -81,9 +81,11 @@ EmResult fit_mixture(std::span<const WeightedPoint> points, const EmOptions& opt
         maximization(statistics, weights.effective, options.prior, result.components));
     result.log_likelihood = batch.log_likelihood;
     if (++result.iterations >= options.max_iterations) break;
-    if (batch.log_likelihood - previous < options.tolerance * std::abs(batch.log_likelihood)) break;
+    const double gain = batch.log_likelihood - previous;
+    const bool overshot = options.step > 1 && gain < 0;  // a plain step comes next
+    if (!overshot && gain < options.tolerance * std::abs(batch.log_likelihood)) break;
     previous = batch.log_likelihood;
-    if (options.step > 1) over_relax(before, options.step, result.components);
+    if (options.step > 1 && !overshot) over_relax(before, options.step, result.components);
   }
   return result;
 }

@@ -14,8 +14,8 @@ void open(std::optional<CellGuide>& guide, const GuideCacheView& cache, const Ca
   if (!guide->valid()) guide.reset();
 }
 
-bool may_guide(const DirectionOptions& options, const GuidingCaches& caches) {
-  return options.guide != DirectionGuide::none && caches.guided();
+bool may_guide(const DirectionOptions& options, const GuidingCaches& caches, int material) {
+  return options.guide != DirectionGuide::none && caches.guided() && caches.may_guide(material);
 }
 
 // The shading normal on the side of wo.
@@ -33,14 +33,14 @@ DirectionSampler::DirectionSampler(const Scene& scene, const GuidingCaches& cach
                                    const DirectionOptions& options, const SurfacePoint& at,
                                    const Vec3& wo, TransportMode mode)
     : options_(options),
-      here_(may_guide(options, caches) ? caches.locate(at.p, facing(at, wo)) : 0),
+      here_(may_guide(options, caches, at.material) ? caches.locate(at.p, facing(at, wo)) : 0),
       resolved_(scene.bsdf(at, wo, mode)),
       ng_(at.ng),
       wo_local_(resolved_.frame.to_local(wo)),
       ng_side_(resolved_.frame.n.dot(at.ng) >= 0 ? 1.0f : -1.0f),
       has_smooth_(resolved_.bsdf.has_smooth()),
       delta_prob_(resolved_.bsdf.delta_prob(wo_local_)) {
-  if (may_guide(options, caches) && has_smooth_ && delta_prob_ < 1)
+  if (may_guide(options, caches, at.material) && has_smooth_ && delta_prob_ < 1)
     prepare_guide(caches, at, facing(at, wo));
 }
 

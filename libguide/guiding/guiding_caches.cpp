@@ -51,7 +51,13 @@ GuidingCaches::GuidingCaches(const BrdfCache* brdf, const GuideCacheView& guide,
       fit_of_material_(materials.size(), {-1, -1}),
       uniform_(materials.size(), {false, false}) {
   for (const CacheCell& cell : guide.cells)
-    first_component_.push_back(cell.component_count > 0 ? cell.first_component : 0);
+    mixtures_.push_back(reinterpret_cast<uintptr_t>(guide.components.data()) +
+                        cell.first_component * sizeof(GaussianComponent));
+  for (size_t m = 0; m < materials.size(); ++m) {
+    const int behind = material_behind(materials, static_cast<int>(m));
+    smooth_.push_back(lobe_traits(materials, static_cast<int>(m)).smooth || behind < 0 ||
+                      lobe_traits(materials, behind).smooth);
+  }
   if (!brdf_) return;
   prepare_lobes();
   prepare_materials(materials);

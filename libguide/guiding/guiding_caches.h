@@ -2,6 +2,7 @@
 // The caches of one render, prepared for lookup by material and place.
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -35,15 +36,19 @@ class GuidingCaches {
   GuidingCaches(const BrdfCache* brdf, const GuideCacheView& guide,
                 std::span<const Material> materials, std::span<const Medium> media = {});
 
-  bool guided() const { return !guide_.cells.empty(); }
+  bool guided() const { return !finder_.empty(); }
+  // Whether a material scatters into more than single directions on either side.
+  bool may_guide(int material) const {
+    return smooth_.empty() || (material >= 0 && smooth_[material]);
+  }
   const GuideCacheView& guide() const { return guide_; }
   // The cell that holds a point of a surface; only where there are cells. What it knows is on its
   // way from memory when this returns: do something else before it is asked for.
   uint32_t locate(const Vec3& position, const Vec3& normal) const {
     const uint32_t cell = finder_.find(position, normal);
-    fetch(guide_.components.data() + first_component_[cell]);
-    __builtin_prefetch(&guide_.cells[cell]);
-    if (!guide_.reaches.empty()) __builtin_prefetch(&guide_.reaches[cell]);
+    fetch_mixture(mixtures_[cell]);
+    fetch(guide_.cells[cell]);
+    if (!guide_.reaches.empty()) fetch(guide_.reaches[cell]);
     return cell;
   }
   const MediumGuides& media() const { return media_; }
@@ -67,10 +72,16 @@ class GuidingCaches {
   void learned(std::vector<CellChoice> choices) { choices_ = std::move(choices); }  // by cell
 
  private:
-  // A mixture is one to three cache lines.
-  static void fetch(const GaussianComponent* components) {
-    for (int line = 0; line < 3; ++line)
-      __builtin_prefetch(reinterpret_cast<const char*>(components) + 64 * line);
+  // Begins to read an object: its first cache line and its last.
+  template <typename T>
+  static void fetch(const T& object) {
+    __builtin_prefetch(&object);
+    __builtin_prefetch(reinterpret_cast<const char*>(&object + 1) - 1);
+  }
+  // Most mixtures lie on three cache lines.
+  static void fetch_mixture(uintptr_t address) {
+    for (uintptr_t line = 0; line < 3; ++line)
+      __builtin_prefetch(reinterpret_cast<const void*>(address + 64 * line));
   }
 
   void prepare_lobes();
@@ -80,11 +91,12 @@ class GuidingCaches {
   std::vector<BrdfLobe> lobes_;  // by brdf_->entries
   GuideCacheView guide_;
   LeafFinder finder_;
-  std::vector<uint32_t> first_component_;  // by cell, where it is close at hand
+  std::vector<uintptr_t> mixtures_;  // where they lie, by cell
   MediumGuides media_;
   // By material, for its front and its back: index into brdf_->materials, or -1.
   std::vector<std::array<int, 2>> fit_of_material_;
   std::vector<std::array<bool, 2>> uniform_;
+  std::vector<bool> smooth_;                      // by material; empty: not known
   std::vector<std::optional<LobeWidth>> widths_;  // by brdf_->materials; where textured
   std::vector<CellChoice> choices_;               // by cell; empty: not learned
 };

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "libguide/base/error.h"
 #include "libguide/base/parallel.h"
 #include "libguide/base/sampler.h"
@@ -197,7 +199,7 @@ GuideCache train_and_refit(std::span<const Photon> photons, uint64_t emitted, si
   return cache;
 }
 
-TEST(CacheTrain, RefiningDoesNotDependOnThreadsOrOnHowTheStreamIsCut) {
+TEST(CacheTrain, RefittingDoesNotDependOnThreadsOrOnHowTheStreamIsCut) {
   const std::vector<Photon> photons = floor_photons(60'000);
   const std::string whole = bytes_of(train_and_refit(photons, 60'000, photons.size()));
   EXPECT_NE(whole, bytes_of(train(photons, floor_info(60'000))));
@@ -205,7 +207,7 @@ TEST(CacheTrain, RefiningDoesNotDependOnThreadsOrOnHowTheStreamIsCut) {
   EXPECT_EQ(bytes_of(train_and_refit(photons, 60'000, 777)), whole);
 }
 
-TEST(CacheTrain, RefinedMixturesAreCloserToTheLight) {
+TEST(CacheTrain, RefittedMixturesAreCloserToTheLight) {
   const std::vector<Photon> photons = floor_photons(100'000);
   CacheTrainSummary summary;
   const GuideCache refitted = train_and_refit(photons, 100'000, photons.size(), &summary);
@@ -214,7 +216,7 @@ TEST(CacheTrain, RefinedMixturesAreCloserToTheLight) {
   EXPECT_LT(mean_comparison(refitted).distance, 0.97 * once);
 }
 
-TEST(CacheTrain, RefinedCellsOwnTheEvidenceOfTheirPhotonsBoundedAsInTraining) {
+TEST(CacheTrain, RefittedCellsOwnTheEvidenceOfTheirPhotonsBoundedAsInTraining) {
   std::vector<Photon> photons = floor_photons(100'000);
   photons[photons.size() / 2].power *= 1e5f;
   const GuideCache cache = train_and_refit(photons, 100'000, photons.size());
@@ -226,7 +228,7 @@ TEST(CacheTrain, RefinedCellsOwnTheEvidenceOfTheirPhotonsBoundedAsInTraining) {
   EXPECT_NEAR(sum / static_cast<double>(photons.size()), 1, 0.05);
 }
 
-TEST(CacheTrain, RefiningKeepsTheEvidenceOfEarlierStreams) {
+TEST(CacheTrain, RefittingKeepsTheEvidenceOfEarlierStreams) {
   const std::vector<Photon> first = floor_photons(50'000, 1), second = floor_photons(50'000, 2);
   CacheTrainer trainer({}, floor_info(50'000), train(first, floor_info(50'000)));
   trainer.consume(second);
@@ -238,6 +240,20 @@ TEST(CacheTrain, RefiningKeepsTheEvidenceOfEarlierStreams) {
   for (const CacheCell& cell : cache.cells) sum += cell.photon_count;
   EXPECT_GT(sum, 1.3 * static_cast<double>(second.size()));
   for (const CellTraining& t : cache.training) EXPECT_GE(t.step, 1);
+}
+
+TEST(CacheTrain, RefittingTellsHowFarItIsAndStops) {
+  const std::vector<Photon> photons = floor_photons(60'000);
+  std::atomic<bool> stop{false};
+  RunControl control;
+  double told = 0;
+  control.stop = &stop;
+  control.on_progress = [&](double done, double, const char*) { told = done, stop = true; };
+  CacheTrainer trainer({}, floor_info(60'000));
+  trainer.consume(photons);
+  trainer.refit(photons);
+  EXPECT_TRUE(trainer.finish(nullptr, control).cells.empty());
+  EXPECT_GT(told, 0);
 }
 
 TEST(CacheTrain, RefusesPhotonsAfterTheSameAgain) {

@@ -52,7 +52,9 @@ TEST(MissingLobes, DoNotTakeAHeavyPointForABeam) {
   points.push_back({kBeam, 20});
   points.push_back({kBeam, 0.1f});
   const auto lobe = MissingLobes(points).find(std::span(&kWide, 1), {});
-  if (lobe) EXPECT_GT((Vec2(lobe->mean_x, lobe->mean_y) - kBeam).norm(), 0.01f);
+  if (lobe) {
+    EXPECT_GT((Vec2(lobe->mean_x, lobe->mean_y) - kBeam).norm(), 0.01f);
+  }
 }
 
 TEST(MissingLobes, FindNothingWithoutValidPoints) {
@@ -61,7 +63,7 @@ TEST(MissingLobes, FindNothingWithoutValidPoints) {
   EXPECT_FALSE(MissingLobes(bad).find(std::span(&kWide, 1), {}));
 }
 
-TEST(RefineMixture, GivesABeamALobeOfItsOwn) {
+TEST(RefitMixture, GivesABeamALobeOfItsOwn) {
   const std::vector<WeightedPoint> points = points_with_beam();
   const auto refitted = refit_mixture(points, std::span(&kWide, 1), 8, {}, 0.3f);
   const Vec2 beam = kBeam + Vec2(5e-4f, 2e-4f);
@@ -71,7 +73,7 @@ TEST(RefineMixture, GivesABeamALobeOfItsOwn) {
   EXPECT_LT(density(by_em, beam), 2 * density(std::span(&kWide, 1), beam));
 }
 
-TEST(RefineMixture, PutsTheLobeInPlaceOfAnotherWhereThereIsNoRoom) {
+TEST(RefitMixture, PutsTheLobeInPlaceOfAnotherWhereThereIsNoRoom) {
   const std::vector<WeightedPoint> points = points_with_beam();
   EmOptions em;
   em.components = 8;
@@ -82,7 +84,7 @@ TEST(RefineMixture, PutsTheLobeInPlaceOfAnotherWhereThereIsNoRoom) {
   EXPECT_GT(density(refitted, kBeam), 50 * density(start, kBeam));
 }
 
-TEST(RefineMixture, HasNoMoreLobesThanItMay) {
+TEST(RefitMixture, HasNoMoreLobesThanItMay) {
   for (const int most : {1, 2}) {
     const auto refitted = refit_mixture(points_with_beam(), std::span(&kWide, 1), most, {}, 0.3f);
     EXPECT_EQ(refitted.size(), static_cast<size_t>(most));
@@ -90,7 +92,7 @@ TEST(RefineMixture, HasNoMoreLobesThanItMay) {
 }
 
 // Two wide lobes a little off: EM has yet to gain, a lobe more has not.
-TEST(RefineMixture, GivesALobeNoCreditForWhatEmGainsAnyway) {
+TEST(RefitMixture, GivesALobeNoCreditForWhatEmGainsAnyway) {
   GaussianComponent other = kWide;
   other.mean_x = -0.5f;
   GaussianComponent start[] = {kWide, other};
@@ -102,7 +104,7 @@ TEST(RefineMixture, GivesALobeNoCreditForWhatEmGainsAnyway) {
   }
 }
 
-TEST(RefineMixture, AddsNoLobeToPointsOfTheMixtureItself) {
+TEST(RefitMixture, AddsNoLobeToPointsOfTheMixtureItself) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     const auto refitted =
         refit_mixture(points_of(kWide, 400, seed), std::span(&kWide, 1), 8, {}, 0.3f);
@@ -110,7 +112,7 @@ TEST(RefineMixture, AddsNoLobeToPointsOfTheMixtureItself) {
   }
 }
 
-TEST(RefineMixture, KeepsTheMixtureWithoutValidPoints) {
+TEST(RefitMixture, KeepsTheMixtureWithoutValidPoints) {
   const WeightedPoint bad{Vec2(0, 0), -1};
   const auto refitted = refit_mixture(std::span(&bad, 1), std::span(&kWide, 1), 8, {}, 0.3f);
   ASSERT_EQ(refitted.size(), 1u);
