@@ -1,6 +1,13 @@
 #include "libguide/math/distribution.h"
 
+#include <bit>
+
 namespace waylight {
+namespace {
+
+constexpr size_t kIndicesPerStep = 4, kMaxSteps = 1 << 20;
+
+}  // namespace
 
 Discrete::Discrete(std::span<const float> weights) : cdf_(weights.size() + 1, 0.0f) {
   for (const float w : weights) total_ += w;
@@ -10,12 +17,27 @@ Discrete::Discrete(std::span<const float> weights) : cdf_(weights.size() + 1, 0.
     sum += weights[i];
     cdf_[i + 1] = static_cast<float>(sum / total_);
   }
+  index();
+}
+
+void Discrete::index() {
+  const size_t steps =
+      std::clamp<size_t>(std::bit_ceil(cdf_.size()) / kIndicesPerStep, 1, kMaxSteps);
+  steps_ = static_cast<float>(steps);
+  first_.assign(steps + 1, 0);
+  auto above = cdf_.begin();
+  for (size_t k = 0; k <= steps; ++k) {
+    while (above != cdf_.end() && *above <= static_cast<float>(k) / steps_) ++above;
+    first_[k] = static_cast<uint32_t>(above - cdf_.begin()) - 1;
+  }
 }
 
 // The last index whose cdf is at most u: indices of no probability are stepped over. The last entry
 // is exactly one, as sum and total add the same terms in the same order.
 Discrete::Sample Discrete::sample(float u) const {
-  const auto above = std::upper_bound(cdf_.begin(), cdf_.end(), u);
+  const auto step = static_cast<size_t>(u * steps_);
+  const auto above =
+      std::upper_bound(cdf_.begin() + first_[step], cdf_.begin() + first_[step + 1] + 1, u);
   const int index = static_cast<int>(above - cdf_.begin()) - 1;
   const float p = prob(index);
   return {index, p, std::min((u - cdf_[index]) / p, kOneMinusEpsilon)};

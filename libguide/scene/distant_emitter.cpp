@@ -77,16 +77,18 @@ MapEmitter::Place MapEmitter::locate(const Vec3& direction) const {
   return {wrapped, std::clamp(row, first, bitmap_->height - first), x - column, y - row};
 }
 
-Color MapEmitter::radiance(const Vec3& direction) const {
-  const Place at = locate(direction);
+Color MapEmitter::radiance(const Vec3& direction) const { return radiance(locate(direction)); }
+
+Color MapEmitter::radiance(const Place& at) const {
   const Color top =
       (1 - at.x) * pixel(at.column, at.row - 1) + at.x * pixel(at.column + 1, at.row - 1);
   const Color bottom = (1 - at.x) * pixel(at.column, at.row) + at.x * pixel(at.column + 1, at.row);
   return scale_ * ((1 - at.y) * top + at.y * bottom);
 }
 
-float MapEmitter::pdf(const Vec3& direction) const {
-  const Place at = locate(direction);
+float MapEmitter::pdf(const Vec3& direction) const { return pdf(locate(direction)); }
+
+float MapEmitter::pdf(const Place& at) const {
   return cells_.cell_prob(at.column, at.row) / cell_solid_angle(at.row);
 }
 
@@ -100,9 +102,10 @@ std::optional<LightSample> MapEmitter::sample(const Vec3& /*from*/, float /*u*/,
   const Vec3 local(static_cast<float>(std::sin(phi) * sine), static_cast<float>(cosine),
                    static_cast<float>(-std::cos(phi) * sine));
   const Vec3 wi = (to_world_ * local).normalized();
-  const float density = pdf(wi);  // of the cell that rounding puts it in
+  const Place at = locate(wi);  // in the cell that rounding puts it in
+  const float density = pdf(at);
   if (density <= 0) return std::nullopt;
-  return LightSample{wi, kInfinity, radiance(wi), density};
+  return LightSample{wi, kInfinity, radiance(at), density};
 }
 
 std::optional<EmissionSample> MapEmitter::emit(float u, const Vec2& u_position,

@@ -42,6 +42,8 @@ class MapEmitter {
     float x, y;  // within the cell, for the interpolation
   };
   Place locate(const Vec3& direction) const;
+  Color radiance(const Place& at) const;
+  float pdf(const Place& at) const;
   const Color& pixel(int column, int row) const;
   Color cell_mean(int column, int row) const;
   double row_edge(int row) const;  // polar angle at which a row of cells begins

@@ -30,6 +30,28 @@ TEST(Discrete, LeavesAUniformRandomNumber) {
   EXPECT_LT(table.sample(kOneMinusEpsilon).u, 1);
 }
 
+// At the steps of its table, beside them and between; weights of very different sizes, runs of
+// zeros.
+TEST(Discrete, SampleIsThatOfASearchThroughTheWholeTable) {
+  std::vector<float> weights(1000);
+  for (int i = 0; i < 1000; ++i)
+    weights[i] = i % 7 < 2 || i > 990 ? 0 : std::exp(0.02f * static_cast<float>(i % 331));
+  const Discrete table(weights);
+  std::vector<float> numbers{0, kOneMinusEpsilon};
+  for (int k = 1; k < 4096; ++k) {
+    const float u = static_cast<float>(k) / 4096;
+    numbers.insert(numbers.end(), {std::nextafter(u, 0.0f), u, std::nextafter(u, 1.0f)});
+  }
+  for (int i = 0; i < 1000; ++i)
+    if (table.cdf(i) < 1) numbers.push_back(table.cdf(i));
+  for (const float u : numbers) {
+    int last = 0;
+    for (int i = 0; i < 1000; ++i)
+      if (table.cdf(i) <= u) last = i;
+    ASSERT_EQ(table.sample(u).index, last) << u;
+  }
+}
+
 TEST(Discrete, WithoutWeightIsEmpty) {
   EXPECT_TRUE(Discrete().empty());
   EXPECT_TRUE(Discrete(std::vector<float>{0, 0}).empty());
