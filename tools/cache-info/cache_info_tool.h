@@ -12,6 +12,8 @@ struct CacheInfoArguments {
   LobePlotArguments plot;
 };
 
+void declare(CLI::App& app, CacheInfoArguments& arguments);  // its command line
+
 void cache_info(const ToolRun& run, const CacheInfoArguments& arguments);
 
 }  // namespace waylight
