@@ -12,18 +12,24 @@ struct PathTracer::State {
   Ray ray;
   Sampler sampler;
   Color throughput;
-  Color roulette_throughput;  // what BSDF sampling would have had
+  Color roulette_throughput;  // what BSDF sampling would have had since roulette by the caches
   float eta_scale;            // undoes the 1/eta^2 of refraction for roulette
   Vec3 previous;              // last vertex, from which light_pdf is measured
   float pdf;                  // of the direction of `ray`
   bool specular;              // it came from a delta lobe or the camera
-  bool has_estimate;          // roulette at this vertex went by the caches
+  int unjudged;               // delta scatterings since roulette went by the caches
   int edges;
   int medium;  // that `ray` is in, or kNone
 
   void weigh(const Color& factor) {
     throughput *= factor;
     roulette_throughput *= factor;
+  }
+  // Roulette by the caches has accounted for all that was before.
+  void judged() {
+    unjudged = 0;
+    roulette_throughput = Color::Ones();
+    eta_scale = 1;
   }
 };
 

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kUnlimitedDepth = 1 << 20;  // bound of "no limit": roulette ends paths long before
 constexpr int kLongPath = 100;            // edges; beyond, roulette is by throughput as well
+constexpr int kMaxUnjudged = 16;          // mirrors and panes after which it is so too
 constexpr float kMinSurvival = 0.05f;
 constexpr uint32_t kNoCell = ~0u;
 
@@ -24,8 +25,8 @@ uint32_t cell_of(const GuidingCaches& /*caches*/, const PhaseSampler& /*directio
 PathRecord PathTracer::trace(const Ray& ray, const Sampler& sampler,
                              const PathContext& context) const {
   Walk walk(context);
-  State state{ray,   sampler, Color::Ones(), Color::Ones(), 1, ray.origin, 0, true,
-              false, 1,       camera_medium_};
+  State state{ray,          sampler, Color::Ones(), Color::Ones(), 1, ray.origin, 0, true,
+              kMaxUnjudged, 1,       camera_medium_};
   walk.reach(1);
   return follow(walk, state);
 }
@@ -40,7 +41,7 @@ PathRecord PathTracer::gather(const Vec3& p, int medium, const Sampler& sampler,
   at.medium = &scene_.medium(medium);
   at.index = medium;
   Walk walk(context);
-  State state{Ray{}, sampler, Color::Constant(4 * kPi), Color::Ones(), 1, p, 0, false, false,
+  State state{Ray{}, sampler, Color::Constant(4 * kPi), Color::Ones(), 1, p, 0, false, kMaxUnjudged,
               0,     medium};
   return go_on(walk, state, at, directions) ? follow(walk, state) : walk.record;
 }
@@ -202,18 +203,21 @@ void PathTracer::add_direct_light(Walk& walk, State& state, const At& at,
 // Guided roulette and splitting: how many copies of the path go on from this vertex.
 template <typename Directions>
 int PathTracer::choose_copies(Walk& walk, State& state, const Directions& directions) const {
-  state.has_estimate = false;
+  state.unjudged = directions.has_smooth() ? kMaxUnjudged : state.unjudged + 1;
   if (options_.roulette != Roulette::guided) return 1;
   const float estimate = directions.reflected_estimate();
   if (!(estimate > 0)) return 1;
   const float expected = luminance(state.throughput) * estimate;
   if (!(walk.pixel_estimate > 0)) walk.pixel_estimate = expected;
   const float q = expected / walk.pixel_estimate;
-  state.has_estimate = walk.record.copies < kMaxCopies && state.edges < kLongPath;
+  const bool settles = walk.record.copies < kMaxCopies && state.edges < kLongPath;
   const int room = walk.room(options_.max_split);
-  if (!options_.window.leaves(q, room)) return 1;
-  const Population population = options_.window.decide(q, room, state.sampler.next());
-  state.weigh(Color::Constant(population.weight));
+  Population population;
+  if (options_.window.leaves(q, room)) {
+    population = options_.window.decide(q, room, state.sampler.next());
+    state.weigh(Color::Constant(population.weight));
+  }
+  if (settles) state.judged();
   return population.copies;
 }
 
@@ -275,9 +279,11 @@ bool PathTracer::pass_pane(State& state, const At& at, const DirectionSample& th
 }
 
 // By the throughput that BSDF sampling would have had: a guided path's own throughput is low by
-// design where light is, and roulette by it kills just the paths that matter.
+// design where light is, and roulette by it kills just the paths that matter. Of a path that was
+// judged by the caches it counts what happened since; mirrors and smooth glass, about which caches
+// say nothing, change little, and their next vertex is judged again.
 bool PathTracer::survives_throughput(State& state) const {
-  if (options_.roulette == Roulette::none || state.has_estimate) return true;
+  if (options_.roulette == Roulette::none || state.unjudged < kMaxUnjudged) return true;
   if (state.edges < options_.rr_depth) return true;
   const float expected = state.roulette_throughput.maxCoeff() * state.eta_scale;
   const float survival_prob = std::clamp(expected, kMinSurvival, 0.95f);

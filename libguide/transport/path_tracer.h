@@ -15,7 +15,8 @@ namespace waylight {
 
 // Russian roulette. throughput: by what BSDF sampling would have made of the throughput, after
 // rr_depth edges. guided: by the path's expected contribution, as caches have it, over that of its
-// pixel (weight_window.h); by throughput where no cache is known.
+// pixel (weight_window.h); by throughput where no cache is known, as far as it changed since the
+// caches last judged the path. Mirrors and smooth glass leave the decision to the next vertex.
 // Both are played after next-event estimation: what they credit is the light that is still to come,
 // which is what caches hold that dropped direct photons.
 enum class Roulette { none, throughput, guided };
