@@ -1,14 +1,6 @@
 #include "libguide/guiding/biased_flight.h"
 
 namespace waylight {
-namespace {
-
-int choose_channel(const Color& probs, float u) {
-  if (u < probs[0]) return 0;
-  return u < probs[0] + probs[1] ? 1 : 2;
-}
-
-}  // namespace
 
 BlockWalk BiasedFlight::walk() const {
   return space_.medium.walk(space_.ray, std::min(space_.t_max, kFar));

@@ -59,6 +59,7 @@ class DirectionSampler {
   EvalPdf evaluate(const Vec3& wi) const;  // eval and pdf for the price of one
 
   bool has_smooth() const { return has_smooth_; }
+  float delta_prob() const { return delta_prob_; }  // of one of the delta lobes
   bool guided() const { return bsdf_share_ < 1; }
   float bsdf_share() const { return bsdf_share_; }
   const CacheCell* cell() const {  // whose share of BSDF sampling holds; null where none is known

@@ -18,10 +18,7 @@ Color EquiangularFlight::transmittance(float t) const {
 }
 
 float EquiangularFlight::standard_distance(const Vec2& u) const {
-  float left = u.y();
-  int channel = 0;
-  while (channel < 2 && left >= space_.channels[channel]) left -= space_.channels[channel++];
-  const float sigma = sigma_[channel];
+  const float sigma = sigma_[choose_channel(space_.channels, u.y())];
   return sigma > 0 ? -std::log1p(-u.x()) / sigma : kInfinity;
 }
 

@@ -17,7 +17,7 @@ void PhaseSampler::prepare(const PhaseLobes& lobes, const PhaseOptions& options)
 }
 
 EvalPdf PhaseSampler::evaluate(const Vec3& wi) const {
-  const float value = phase_pdf(phase_, forward_.dot(wi));
+  const float value = phase_pdf(phase_, forward_, wi);
   if (!guided()) return {Color::Constant(value), value};
   return {Color::Constant(value), phase_share_ * value + (1 - phase_share_) * guide_pdf(wi)};
 }

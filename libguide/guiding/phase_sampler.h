@@ -46,6 +46,7 @@ class PhaseSampler {
   EvalPdf evaluate(const Vec3& wi) const;
 
   bool has_smooth() const { return true; }
+  float delta_prob() const { return 0; }
   bool guided() const { return phase_share_ < 1; }
   float bsdf_share() const { return phase_share_; }
   // Luminance of the radiance scattered towards wo, of indirect light, before the albedo; 0 where

@@ -33,9 +33,7 @@ Standard place(const FlightSpace& space, const Vec2& u) {
   const Color share = scattered_share(space), mass = space.channels * share;
   result.scatter_mass = mass.sum();
   if (!(result.scatter_mass > 0)) return result;
-  float left = u.y() * result.scatter_mass;
-  int channel = 0;
-  while (channel < 2 && left >= mass[channel]) left -= mass[channel++];
+  const int channel = choose_channel(mass, u.y() * result.scatter_mass);
   const Color sigma = space.medium.at(space.ray.origin).sigma_t;
   const float t = std::min(-std::log1p(-u.x() * share[channel]) / sigma[channel], space.t_max);
   const Color density = sigma * homogeneous_transmittance(space, t);

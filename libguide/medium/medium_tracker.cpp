@@ -12,11 +12,6 @@ Color exponential(const Color& sigma_t, float distance) {
   return (-sigma_t * std::min(distance, kFar)).exp();
 }
 
-float choose_channel(const Color& probs, const Color& values, float u) {
-  if (u < probs[0]) return values[0];
-  return u < probs[0] + probs[1] ? values[1] : values[2];
-}
-
 float exponential_distance(float u) { return -std::log1p(-u); }
 
 // Whether a tentative collision is real, and the weights of either outcome. channels: of the
@@ -79,7 +74,7 @@ Flight MediumTracker::fly(const Ray& ray, float t_max, const Color& throughput,
 Flight MediumTracker::fly_exponential(const Ray& ray, float t_max, const Color& channels,
                                       Sampler& sampler) const {
   const float u = sampler.next();
-  const float sigma = choose_channel(channels, sigma_t_, sampler.next());
+  const float sigma = sigma_t_[choose_channel(channels, sampler.next())];
   const float t = sigma > 0 ? exponential_distance(u) / sigma : kInfinity;
   const bool scattered = t < t_max;
   const Color transmittance = exponential(sigma_t_, scattered ? t : t_max);

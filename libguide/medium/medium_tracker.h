@@ -33,6 +33,20 @@ inline Color channel_probs(const Color& throughput) {
   return throughput / sum;
 }
 
+// One of the channels, in proportion to probs; u: uniform, in [0, 1) times their sum. Never one of
+// probability 0, whatever rounding makes of their sum.
+inline int choose_channel(const Color& probs, float u) {
+  int channel = 0;
+  float below = 0;
+  for (int c = 0; c < 3; ++c) {
+    if (!(probs[c] > 0)) continue;
+    channel = c;
+    below += probs[c];
+    if (u < below) break;
+  }
+  return channel;
+}
+
 class MediumTracker {
  public:
   explicit MediumTracker(const Medium& medium);

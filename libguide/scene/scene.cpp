@@ -174,7 +174,7 @@ ResolvedBsdf Scene::bsdf(const SurfacePoint& at, const Vec3& wo, TransportMode m
 }
 
 float Scene::opacity(const SurfacePoint& at) const {
-  if (at.material == kNone) return 1;
+  if (!may_be_transparent(at)) return 1;
   return waylight::opacity(description_.materials, at.material, at.uv);
 }
 

@@ -46,7 +46,8 @@ class ChoicePilot {
   // Appends what the path's vertices tell; returns the luminance of its radiance.
   float trace(int place, int sample, std::vector<GuidedVertex>& vertices,
               TileRecord* record) const {
-    Sampler sampler = frame_.sampler(place, sample, 0);
+    // Not the numbers by which what is learned is compared afterwards (method_pilot.cpp).
+    Sampler sampler = frame_.sampler(place, sample, 2);
     vertices.clear();
     PathContext context;
     context.guided = &vertices;

@@ -133,9 +133,11 @@ bool PathTracer::visit(Walk& walk, State& state, const SurfacePoint& at) const {
 bool PathTracer::visit(Walk& walk, State& state, const MediumPoint& at) const {
   if (too_deep(state) || is_black(state.throughput)) return false;
   const MediumGuides& guides = caches_.media();
+  const bool asks = !guides.empty() && (options_.phases.guide != PhaseGuide::none ||
+                                        options_.roulette == Roulette::guided);
   const PhaseSampler directions(at.medium->phase(), -state.ray.direction,
-                                guides.empty() ? nullptr : &guides.at(at.index, at.p),
-                                guides.empty() ? nullptr : &guides.phase(at.index),
+                                asks ? &guides.at(at.index, at.p) : nullptr,
+                                asks ? &guides.phase(at.index) : nullptr,
                                 options_.phases.for_medium(at.medium->homogeneous()));
   if (state.edges == 1) {
     walk.record.albedo = at.albedo;
@@ -250,7 +252,8 @@ bool PathTracer::scatter(Walk& walk, State& state, const At& at,
   const uint32_t cell = walk.context.guided ? cell_of(caches_, directions) : kNoCell;
   if (cell != kNoCell && !next->is_delta)
     walk.context.guided->push_back({cell, next->bsdf_pdf, next->light_pdf, next->guide_pdf,
-                                    next->pdf, luminance(walk.record.radiance)});
+                                    next->pdf / (1 - directions.delta_prob()),
+                                    luminance(walk.record.radiance)});
   state.throughput *= next->weight;
   state.roulette_throughput *= next->bsdf_weight.min(1.0f);
   state.eta_scale *= next->eta * next->eta;

@@ -115,8 +115,7 @@ PathVertex RadianceTracer::next_vertex(State& state) const {
 std::optional<MediumPoint> RadianceTracer::fly(State& state, float t_max, float crossed) const {
   const MediumTracker& medium = scene_.medium(state.medium);
   if (medium.emits())
-    state.last().scattered +=
-        state.last().edge * medium.emission(state.ray, t_max, state.sampler);
+    state.last().scattered += state.last().edge * medium.emission(state.ray, t_max, state.sampler);
   const Flight end = medium.fly(state.ray, t_max, state.throughput, state.sampler);
   state.attenuate(end.weight);
   if (!end.scattered) return std::nullopt;

@@ -19,6 +19,11 @@ TEST(Fresnel, DielectricKnownValues) {
   EXPECT_NEAR(fresnel_dielectric(brewster, 1.5f).reflectance, 0.5f * sqr(s), 1e-6f);
 }
 
+TEST(Fresnel, AConductorOfNoIndexReflectsAll) {
+  for (const float cos : {1.0f, 0.7f, 1e-3f})
+    EXPECT_NEAR(fresnel_conductor(cos, Color::Zero(), Color::Zero()).mean(), 1, 1e-5f) << cos;
+}
+
 TEST(Fresnel, BothSidesAgreeAlongARefractedRay) {
   for (float cos : {0.1f, 0.4f, 0.9f}) {
     const Fresnel in = fresnel_dielectric(cos, 1.7f);

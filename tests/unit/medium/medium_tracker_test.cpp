@@ -42,6 +42,12 @@ void expect_unbiased_flights(const Medium& description, const Color& throughput)
   }
 }
 
+TEST(ChooseChannel, NeverTakesOneOfNoProbability) {
+  EXPECT_EQ(choose_channel({0.3f, 0.7f - 6e-8f, 0}, 0.99999994f), 1);
+  EXPECT_EQ(choose_channel({0, 1, 0}, 0), 1);
+  EXPECT_EQ(choose_channel({0.25f, 0.25f, 0.5f}, 0.6f), 2);
+}
+
 TEST(MediumTracker, FlightsThroughGreyFogFollowBeerLambert) {
   expect_unbiased_flights(homogeneous(Color::Constant(0.8f), Color::Ones()), Color::Ones());
 }
