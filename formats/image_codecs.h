@@ -10,9 +10,8 @@ namespace waylight {
 bool is_exr(const std::string& path);
 Image read_exr(const std::string& path, std::map<std::string, std::string>* attributes);
 
-// PNG, JPEG, TGA, HDR and what else stb_image knows: channels R, G, B and, where the file has it,
-// A. The colour space says how integers of the file become linear; floats are linear unless it is
-// srgb.
+// PNG, JPEG, TGA and HDR: channels R, G, B and, where the file has it, A. The colour space says how
+// integers of the file become linear; floats are linear unless it is srgb.
 Image read_picture(const std::string& path, ColorSpace space);
 
 // Throws Error when a picture would need more than 2^28 pixels or 2^30 numbers.

@@ -1,14 +1,16 @@
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
+#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 
-#include "formats/atomic_file.h"
+#include "formats/file_bytes.h"
 #include "formats/image_codecs.h"
 #include "libguide/base/error.h"
 
@@ -82,8 +84,30 @@ std::vector<Imath::half> to_halves(const Image& image) {
   return halves;
 }
 
+// OpenEXR writes the end of a file in a destructor, where what goes wrong is lost: it writes into
+// memory, and the file is written at once.
+class MemoryStream : public Imf::OStream {
+ public:
+  explicit MemoryStream(const std::string& path) : OStream(path.c_str()) {}
+
+  void write(const char* data, int count) override {
+    const auto size = static_cast<size_t>(count);
+    if (bytes_.size() < position_ + size) bytes_.resize(position_ + size);
+    std::memcpy(bytes_.data() + position_, data, size);
+    position_ += size;
+  }
+  uint64_t tellp() override { return position_; }
+  void seekp(uint64_t position) override { position_ = position; }
+
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+  size_t position_ = 0;
+};
+
 template <typename T>
-void write_pixels(const std::string& path, const Image& image, const Imf::Header& header,
+void write_pixels(MemoryStream& stream, const Image& image, const Imf::Header& header,
                   Imf::PixelType type, const T* pixels) {
   Imf::FrameBuffer buffer;
   const size_t stride = sizeof(T) * image.channels.size();
@@ -91,7 +115,7 @@ void write_pixels(const std::string& path, const Image& image, const Imf::Header
     buffer.insert(image.channels[i],
                   Imf::Slice(type, reinterpret_cast<char*>(const_cast<T*>(pixels + i)), stride,
                              stride * image.width));
-  Imf::OutputFile file(path.c_str(), header);
+  Imf::OutputFile file(stream, header);
   file.setFrameBuffer(buffer);
   file.writePixels(image.height);
 }
@@ -119,18 +143,18 @@ Image read_exr(const std::string& path, std::map<std::string, std::string>* attr
 
 void write_exr(const std::string& path, const Image& image,
                const std::map<std::string, std::string>& attributes, bool half) {
-  write_atomically(path, [&](const std::string& temporary) {
-    try {
-      const Imf::PixelType type = half ? Imf::HALF : Imf::FLOAT;
-      const Imf::Header header = make_header(image, attributes, type);
-      if (half)
-        write_pixels(temporary, image, header, type, to_halves(image).data());
-      else
-        write_pixels(temporary, image, header, type, image.pixels.data());
-    } catch (const std::exception& e) {
-      fail("\"{}\": cannot be written as OpenEXR: {}", path, e.what());
-    }
-  });
+  MemoryStream stream(path);
+  try {
+    const Imf::PixelType type = half ? Imf::HALF : Imf::FLOAT;
+    const Imf::Header header = make_header(image, attributes, type);
+    if (half)
+      write_pixels(stream, image, header, type, to_halves(image).data());
+    else
+      write_pixels(stream, image, header, type, image.pixels.data());
+  } catch (const std::exception& e) {
+    fail("\"{}\": cannot be written as OpenEXR: {}", path, e.what());
+  }
+  write_whole_file(path, stream.bytes());
 }
 
 }  // namespace waylight

@@ -8,6 +8,11 @@
 #include "formats/image_codecs.h"
 #include "formats/srgb.h"
 
+// What is promised and no more: 2.27 crashes on pictures of other formats that are damaged.
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_TGA
+#define STBI_ONLY_HDR
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO

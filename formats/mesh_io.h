@@ -20,6 +20,8 @@ struct MeshRepairs {
 
 // Vertices are unified by their (position, uv, normal) triple of indices; groups are merged.
 TriangleMesh read_obj(const std::string& path, MeshRepairs* repairs = nullptr);
+// Whether its faces have materials of a library (.mtl), which read_obj leaves out.
+bool has_obj_materials(const std::string& path);
 // ascii, binary little and big endian
 TriangleMesh read_ply(const std::string& path, MeshRepairs* repairs = nullptr);
 // Mitsuba's zlib-compressed format, versions 3 and 4, float and double.

@@ -148,12 +148,15 @@ void blank_comments(std::string& text) {
     for (; at < text.size() && text[at] != '\n'; ++at) text[at] = ' ';
 }
 
+// The next line of a text, which is taken off it.
+std::string_view next_line(std::string_view& text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  return line;
+}
+
 void check_lines(const std::string& path, std::string_view text) {
-  for (size_t number = 1; !text.empty(); ++number) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(line.size() + 1, text.size()));
-    check_line(path, number, line);
-  }
+  for (size_t number = 1; !text.empty(); ++number) check_line(path, number, next_line(text));
 }
 
 ObjBuilder& builder(void* user_data) { return *static_cast<ObjBuilder*>(user_data); }
@@ -181,6 +184,18 @@ TriangleMesh read_obj(const std::string& path, MeshRepairs* repairs) {
   if (!tinyobj::LoadObjWithCallback(text, callbacks, &mesh, nullptr, &warning, &error))
     fail("\"{}\": {}", path, error);
   return mesh.finish(repairs);
+}
+
+bool has_obj_materials(const std::string& path) {
+  const std::string bytes = read_whole_file(path);
+  bool has_library = false;
+  for (std::string_view text = bytes; !text.empty();) {
+    std::string_view line = next_line(text);
+    const std::string_view statement = next_word(line);
+    has_library |= statement == "mtllib";
+    if (has_library && statement == "usemtl") return true;
+  }
+  return false;
 }
 
 }  // namespace waylight

@@ -34,6 +34,15 @@ void check_indices(const TriangleMesh& mesh, const std::string& path) {
              mesh.positions.size());
 }
 
+void check_sizes(const TriangleMesh& mesh, const std::string& path) {
+  const auto check = [&](size_t count, const char* what) {
+    if (count != 0 && count != mesh.positions.size())
+      fail("\"{}\": there are {} {} for {} vertices", path, count, what, mesh.positions.size());
+  };
+  check(mesh.normals.size(), "normals");
+  check(mesh.uvs.size(), "texture coordinates");
+}
+
 // Keeps only vertices that a triangle uses, in their order.
 void compact_vertices(TriangleMesh& mesh) {
   std::vector<uint32_t> new_index(mesh.positions.size(), 0);
@@ -100,6 +109,7 @@ void compute_vertex_normals(TriangleMesh& mesh) {
 }
 
 void finish_mesh(TriangleMesh& mesh, const std::string& path, MeshRepairs* repairs) {
+  check_sizes(mesh, path);
   check_indices(mesh, path);
   MeshRepairs mended;
   mended.dropped_triangles = drop_unusable_triangles(mesh);

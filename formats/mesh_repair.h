@@ -8,7 +8,8 @@
 namespace waylight {
 
 // Makes the mesh that was read from `path` keep the promises of TriangleMesh. Adds to *repairs
-// (may be null). Throws Error for indices out of range and when no triangle is left.
+// (may be null). Throws Error for indices out of range, for normals or texture coordinates of some
+// vertices only, and when no triangle is left.
 void finish_mesh(TriangleMesh& mesh, const std::string& path, MeshRepairs* repairs);
 
 // Adds the triangles of a simple polygon, given by indices into positions that are in range. Convex

@@ -92,10 +92,19 @@ class HeaderParser {
     if (words.size() != 3) defect("an element has a name and a count");
     PlyElement element;
     element.name = words[1];
+    refuse_second(element.name);
     const char* end = words[2].data() + words[2].size();
     const auto [stop, error] = std::from_chars(words[2].data(), end, element.count);
     if (error != std::errc() || stop != end) defect(fmt::format("\"{}\" is not a count", words[2]));
     header_.elements.push_back(std::move(element));
+  }
+
+  // One mesh has one list of each; what else there is twice is skipped.
+  void refuse_second(const std::string& name) const {
+    if (name != "vertex" && name != "face") return;
+    for (const PlyElement& earlier : header_.elements)
+      if (earlier.name == name)
+        defect(fmt::format("a second element \"{}\"; write one mesh to a file", name));
   }
 
   void parse_property(const Words& words) {

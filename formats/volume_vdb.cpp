@@ -122,7 +122,17 @@ openvdb::CoordBBox active_box(const openvdb::GridBase& grid, const std::string& 
   return box;
 }
 
+// Distances to a surface would pass for density outside it, and for nothing inside.
+void refuse_level_set(const openvdb::GridBase& grid, const std::string& path) {
+  if (grid.getGridClass() == openvdb::GRID_LEVEL_SET)
+    fail(
+        "\"{}\": grid \"{}\" is a level set, whose values are distances; convert it to a fog "
+        "volume (openvdb::tools::sdfToFogVolume, or vdb_tool -read IN.vdb -ls2fog -write OUT.vdb)",
+        path, grid.getName());
+}
+
 VolumeGrid to_volume(const openvdb::GridBase& grid, const std::string& path) {
+  refuse_level_set(grid, path);
   const openvdb::CoordBBox box = active_box(grid, path);
   const Mat4 to_world = grid_to_world(grid, box, path);
   if (const auto* floats = dynamic_cast<const openvdb::FloatGrid*>(&grid))

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // No scene made for rendering comes near these; a hostile one would need memory without end.
-constexpr size_t kMaxBytes = 32 << 20;  // of all files together
+constexpr size_t kMaxBytes = 32 << 20;  // of all files together, and of all values of $names
 constexpr size_t kMaxElements = 1 << 20, kMaxIncludes = 4096;
 constexpr int kMaxDepth = 64, kMaxIncludeDepth = 32;
 
@@ -119,10 +119,22 @@ class DocumentParser {
       size_t end = i + 1;
       while (end < text.size() && is_name_character(text[end])) ++end;
       const std::string name = parameter(element, std::string(text.substr(i + 1, end - i - 1)));
-      result += parameters_.at(name);
+      const std::string& value = parameters_.at(name);
+      take_from_budget(element, name, value.size());
+      result += value;
       i += 1 + name.size();
     }
     return result;
+  }
+
+  // Defaults may hold names: without a limit a dozen lines would make any number of bytes.
+  void take_from_budget(const Element& element, const std::string& name, size_t bytes) {
+    if (bytes > value_bytes_left_)
+      fail_at(element,
+              "${}: the values of names make more than {} MiB of this scene; give the <default>s "
+              "shorter values",
+              name, kMaxBytes >> 20);
+    value_bytes_left_ -= bytes;
   }
 
   std::string parameter(const Element& element, const std::string& wanted) {
@@ -255,6 +267,7 @@ class DocumentParser {
   std::vector<std::string> open_files_;
   std::vector<Element> aliases_;
   size_t elements_ = 0, includes_ = 0, bytes_left_ = kMaxBytes;
+  size_t value_bytes_left_ = kMaxBytes;
   Document document_;
 };
 

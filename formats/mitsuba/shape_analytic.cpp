@@ -1,4 +1,5 @@
 #include "formats/mitsuba/shape_geometry.h"
+#include "libguide/math/frame.h"
 
 namespace waylight::mitsuba {
 namespace {
@@ -45,6 +46,15 @@ TriangleMesh tessellated_sphere() {
   return mesh;
 }
 
+// Where azimuth about n begins: along the first tangent of the frame that Mitsuba puts around it,
+// which in the old dialect is a matter of the larger of x and y.
+Vec3 first_tangent(const Vec3& n, bool old_dialect) {
+  if (!old_dialect) return Frame(n).s;
+  const bool x_is_larger = std::abs(n.x()) > std::abs(n.y());
+  const Vec3 t = x_is_larger ? Vec3(n.z(), 0, -n.x()) : Vec3(0, n.z(), -n.y());
+  return t.normalized().cross(n);
+}
+
 // Length that the transform gives every unit vector, or 0 when it is not the same for all.
 double similarity_scale(const Eigen::Matrix3d& linear) {
   const Eigen::Matrix3d gram = linear.transpose() * linear;
@@ -63,19 +73,22 @@ TriangleMesh import_rectangle(Properties& properties) {
   return placed(mesh, properties);
 }
 
-// [-1, 1]^3, each face with the unit square of texture coordinates.
+// [-1, 1]^3, each face with the unit square of texture coordinates as both Mitsubas have it.
 TriangleMesh import_cube(Properties& properties) {
+  const Vec3 right[] = {{0, 1, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 1, 0}};
   TriangleMesh mesh;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const float side : {-1.0f, 1.0f}) {
-      const Vec3 n = side * Vec3::Unit(axis), s = Vec3::Unit((axis + 1) % 3), t = n.cross(s);
-      const auto first = static_cast<uint32_t>(mesh.positions.size());
-      for (const Vec2& corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
-        mesh.positions.push_back(n + corner.x() * s + corner.y() * t);
-        mesh.uvs.push_back(0.5f * (corner + Vec2::Ones()));
-      }
-      add_quad(mesh, first, first + 1, first + 2, first + 3);
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2;
+    const Vec3 n = (face % 2 ? 1 : -1) * Vec3::Unit(axis), s = Vec3::Unit((axis + 1) % 3);
+    const Vec3 t = n.cross(s), u = right[face], v = u.cross(n);
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    for (const Vec2& corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)}) {
+      const Vec3 p = n + corner.x() * s + corner.y() * t;
+      mesh.positions.push_back(p);
+      mesh.uvs.push_back(0.5f * (Vec2(p.dot(u), p.dot(v)) + Vec2::Ones()));
     }
+    add_quad(mesh, first, first + 1, first + 2, first + 3);
+  }
   return placed(mesh, properties);
 }
 
@@ -96,13 +109,14 @@ TriangleMesh import_disk(Properties& properties) {
 }
 
 // The open tube from p0 to p1; u is azimuth / 2 pi, v runs along the axis.
-TriangleMesh import_cylinder(Properties& properties) {
+TriangleMesh import_cylinder(const ImportContext& context, Properties& properties) {
   const Vec3 p0 = properties.vector("p0", Vec3::Zero());
   const Vec3 p1 = properties.vector("p1", Vec3::UnitZ());
   const float radius = properties.number("radius", 1);
   if (!(radius > 0) || p0 == p1)
     fail_at(properties.element(), "needs a radius above 0 and p0 apart from p1");
-  const Vec3 axis = (p1 - p0).normalized(), s = axis.unitOrthogonal(), t = axis.cross(s);
+  const Vec3 axis = (p1 - p0).normalized();
+  const Vec3 s = first_tangent(axis, context.document.old_dialect), t = axis.cross(s);
   TriangleMesh mesh;
   for (int i = 0; i <= kCircleSegments; ++i) {
     const Vec2 around = unit_circle(i, kCircleSegments);

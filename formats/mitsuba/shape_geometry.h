@@ -11,10 +11,12 @@ using Geometry = std::variant<TriangleMesh, Sphere>;
 
 // obj, ply, serialized. Warns of repairs.
 TriangleMesh import_mesh_file(ImportContext& context, Properties& properties);
+// Of a shape without <bsdf>: Mitsuba 0.6 takes the materials of an OBJ file for it.
+void warn_of_unread_materials(const ImportContext& context, Properties& properties);
 TriangleMesh import_rectangle(Properties& properties);
 TriangleMesh import_cube(Properties& properties);
 TriangleMesh import_disk(Properties& properties);
-TriangleMesh import_cylinder(Properties& properties);
+TriangleMesh import_cylinder(const ImportContext& context, Properties& properties);
 // A Sphere where to_world is a similarity, else a fine mesh.
 Geometry import_sphere(Properties& properties);
 

@@ -57,4 +57,15 @@ TriangleMesh import_mesh_file(ImportContext& context, Properties& properties) {
   return mesh;
 }
 
+void warn_of_unread_materials(const ImportContext& context, Properties& properties) {
+  const Element& shape = properties.element();
+  const Document& document = context.document;
+  if (shape.type != "obj" || !properties.boolean("load_materials", document.old_dialect)) return;
+  if (has_obj_materials(document.find_file(shape, properties.text("filename", ""))))
+    context.warn(fmt::format(
+        "{}: the materials of its file are not read, all of it has the default material; give it a "
+        "<bsdf>, or make it one shape for each material",
+        shape.where()));
+}
+
 }  // namespace waylight::mitsuba

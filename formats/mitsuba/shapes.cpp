@@ -16,7 +16,7 @@ Geometry import_geometry(ImportContext& context, Properties& properties) {
   if (type == "rectangle") return import_rectangle(properties);
   if (type == "cube") return import_cube(properties);
   if (type == "disk") return import_disk(properties);
-  if (type == "cylinder") return import_cylinder(properties);
+  if (type == "cylinder") return import_cylinder(context, properties);
   if (type == "sphere") return import_sphere(properties);
   return import_mesh_file(context, properties);
 }
@@ -91,6 +91,7 @@ ImportedShape import_single(ImportContext& context, const Element& element) {
   shape.interior_medium = import_boundary(context, properties, "interior");
   shape.exterior_medium = import_boundary(context, properties, "exterior");
   const Element* bsdf = single(properties, "bsdf");
+  if (!bsdf) warn_of_unread_materials(context, properties);
   result.emitter = single(properties, "emitter");
   properties.finish();
   const bool bounds_medium = shape.interior_medium != kNone || shape.exterior_medium != kNone;

@@ -1,6 +1,7 @@
 // Pictures whose formats do not say where they end.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "formats/image_io.h"
 #include "formats/temporary_files.h"
@@ -67,6 +68,27 @@ TEST_F(PictureTest, HdrCutShortIsRefused) {
 
 TEST_F(PictureTest, RunLengthCodedHdrCutShortIsRefused) {
   expect_refused_where_cut(".hdr", hdr(true), hdr(true).size() - 12 * kSize);
+}
+
+// Softimage PIC with a packet of no known kind, after which stb_image 2.27 reads a picture from
+// address 0.
+TEST_F(PictureTest, FormatsThatAreNotPromisedAreRefused) {
+  std::string pic = "\x53\x80\xf6\x34" + std::string(84, '\0') + "PICT";
+  pic += {'\0', kSize, '\0', kSize};
+  pic += std::string(8, '\0') + std::string{'\0', '\x08', '\x03', '\xe0', '\0'};
+  const std::string bmp = "BM" + std::string(64, '\0'), gif = "GIF89a" + std::string(64, '\0');
+  for (const std::string& bytes : {pic, bmp, gif}) {
+    const std::string error = testing::error_of([&] { read_image(put("picture", bytes)); });
+    EXPECT_TRUE(testing::mentions(error, "is not a picture that can be read")) << error;
+  }
+}
+
+// Small enough that all of it is still in a buffer when the file is closed.
+TEST_F(PictureTest, ExrOnAFullDiskIsAnError) {
+  if (::access("/dev/full", W_OK) != 0) GTEST_SKIP() << "this system has no /dev/full";
+  const Image image(2, 2, {"R", "G", "B"});
+  const std::string error = testing::error_of([&] { write_exr("/dev/full", image); });
+  EXPECT_TRUE(testing::mentions(error, "cannot write: No space left")) << error;
 }
 
 }  // namespace

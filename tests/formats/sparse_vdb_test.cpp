@@ -248,5 +248,15 @@ TEST_F(SparseVdb, ATruncatedFileIsRefused) {
   EXPECT_TRUE(mentions(error_of([&] { read_vdb(half, ""); }), "half.vdb"));
 }
 
+// Their values are distances, and negative inside.
+TEST_F(SparseVdb, LevelSetsAreRefused) {
+  const openvdb::FloatGrid::Ptr grid = far_apart_balls();
+  grid->setGridClass(openvdb::GRID_LEVEL_SET);
+  EXPECT_TRUE(mentions(refusal(grid), "grid \"density\" is a level set")) << refusal(grid);
+  EXPECT_TRUE(mentions(refusal(grid), "ls2fog")) << refusal(grid);
+  grid->setGridClass(openvdb::GRID_FOG_VOLUME);
+  EXPECT_EQ(refusal(grid), "no error");
+}
+
 }  // namespace
 }  // namespace waylight

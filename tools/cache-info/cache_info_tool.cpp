@@ -53,18 +53,16 @@ void plot(const ToolRun& run, const CacheInfoArguments& arguments, FileKind kind
 void cache_info(const ToolRun& run, const CacheInfoArguments& arguments) {
   const FileKind kind = identify_file(arguments.file);
   validate(arguments, kind);
-  if (!arguments.plot.target.empty()) {
-    plot(run, arguments, kind);
-    return;
-  }
   nlohmann::ordered_json info = describe_content(arguments.file, kind, run);
   if (arguments.check) {
     require_sound(arguments.file, info);
     info["sound"] = true;
   }
   run.write_stats(info);
-  if (arguments.json)
-    run.print(info.dump(2));
+  if (!arguments.plot.target.empty())
+    plot(run, arguments, kind);
+  else if (arguments.json)
+    run.print(json_text(info));
   else if (arguments.check)
     run.print(fmt::format("\"{}\" is sound: {}", file_name(arguments.file), describe(kind)));
   else

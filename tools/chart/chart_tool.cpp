@@ -1,13 +1,14 @@
 #include "tools/chart/chart_tool.h"
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "formats/atomic_file.h"
 #include "tools/common/gnuplot.h"
 
 namespace waylight {
 
-void chart(const ChartOptions& given) {
+void chart(const ToolRun& run, const ChartOptions& given) {
   given.validate();
   const ChartOptions options = with_columns_of_table(given);
   const std::vector<ChartLine> lines = chart_lines(options);
@@ -19,6 +20,9 @@ void chart(const ChartOptions& given) {
   draw(ChartFormat::svg, options.output);
   if (options.png)
     draw(ChartFormat::png, std::filesystem::path(options.output).replace_extension(".png"));
+  size_t points = 0;
+  for (const ChartLine& line : lines) points += line.points.size();
+  run.write_stats({{"tables", options.tables.size()}, {"lines", lines.size()}, {"points", points}});
 }
 
 }  // namespace waylight

@@ -46,5 +46,5 @@ int main(int argc, char** argv) {
   ChartOptions options;
   return run_tool(
       argc, argv, kTool, [&](CLI::App& app) { declare(app, options); },
-      [&](ToolRun&) { chart(options); });
+      [&](ToolRun& run) { chart(run, options); });
 }

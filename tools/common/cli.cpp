@@ -197,7 +197,8 @@ void ToolRun::print(const std::string& line) const {
 }
 
 void ToolRun::write_stats(const nlohmann::ordered_json& stats, const std::string& tag) const {
-  if (!stats_path_.empty()) write_text_atomically(tagged(stats_path_, tag), stats.dump(2) + "\n");
+  if (!stats_path_.empty())
+    write_text_atomically(tagged(stats_path_, tag), json_text(stats) + "\n");
 }
 
 void ToolRun::check_referred(const std::string& file,
@@ -222,6 +223,11 @@ std::string tagged(const std::string& path, const std::string& tag) {
   if (tag.empty()) return path;
   const std::filesystem::path name(path);
   return name.parent_path() / (name.stem().string() + "-" + tag + name.extension().string());
+}
+
+std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', /*ensure_ascii=*/false,
+                   nlohmann::ordered_json::error_handler_t::replace);
 }
 
 const char* version() { return WAYLIGHT_VERSION; }

@@ -84,4 +84,7 @@ size_t peak_memory_bytes();              // of this process
 std::string format_bytes(double bytes);  // "1.5 MB"
 std::string format_count(double count);  // "1.5 M"
 
+// JSON as all tools write it. File names are bytes: what is no UTF-8 becomes U+FFFD.
+std::string json_text(const nlohmann::ordered_json& json);
+
 }  // namespace waylight

@@ -89,12 +89,24 @@ class LockedFile {
   LockedFile(const LockedFile&) = delete;
   LockedFile& operator=(const LockedFile&) = delete;
 
-  void append(const std::string& text) {
-    if (::write(file_, text.data(), text.size()) != static_cast<ssize_t>(text.size()))
-      fail("\"{}\": cannot write: {}", path_, std::strerror(errno));
+  // All of the text, or none: half a row would make the table unreadable.
+  void append(std::string_view text) {
+    const off_t size = ::lseek(file_, 0, SEEK_END);
+    while (!text.empty()) {
+      const ssize_t written = ::write(file_, text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written <= 0) take_back(size, written < 0 ? errno : ENOSPC);
+      text.remove_prefix(static_cast<size_t>(written));
+    }
   }
 
  private:
+  [[noreturn]] void take_back(off_t size, int error) {
+    const bool whole = ::ftruncate(file_, size) == 0;
+    fail("\"{}\": cannot write: {}{}", path_, std::strerror(error),
+         whole ? "" : "; its last row is incomplete, remove it");
+  }
+
   std::string path_;
   int file_;
 };

@@ -46,6 +46,16 @@ std::string quoted(const std::string& text) {
   return result;
 }
 
+// A label between the double quotes of a data block, where nothing stands for a quote, and a line
+// of its own would end the block.
+std::string in_data(std::string label) {
+  for (char& c : label) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    if (c == '"') c = '\'';
+  }
+  return label;
+}
+
 std::string axis_commands(char axis, const Range& values, bool linear) {
   if (linear) {
     const Range range = values.padded_linear();
@@ -88,7 +98,8 @@ std::string label_of(const std::string& column) {
 std::string data_block(size_t index, const ChartLine& line) {
   std::string block = fmt::format("$line{} << EOD\n", index);
   for (const ChartPoint& p : line.points)
-    block += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} \"{}\"\n", p.x, p.y, p.low, p.high, p.label);
+    block += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} \"{}\"\n", p.x, p.y, p.low, p.high,
+                         in_data(p.label));
   return block + "EOD\n";
 }
 

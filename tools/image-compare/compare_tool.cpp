@@ -175,7 +175,7 @@ void image_compare(const ToolRun& run, const ImageCompareOptions& options) {
   if (!options.error_image.empty()) write_error_image(options.error_image, x, ref);
   if (!options.csv.empty()) append_csv(options.csv, csv_row(labels, report.figures, options));
   const nlohmann::ordered_json json = to_json(labels, report);
-  options.json ? run.print(json.dump(2)) : print_table(run, report);
+  options.json ? run.print(json_text(json)) : print_table(run, report);
   run.write_stats(json);
 }
 

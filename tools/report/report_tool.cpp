@@ -76,7 +76,7 @@ void declare(CLI::App& app, ReportOptions& options) {
 
 void report(const ToolRun& run, const ReportOptions& options) {
   options.validate();
-  const std::vector<SceneRuns> scenes = read_runs(options.tables, options.base);
+  const std::vector<SceneRuns> scenes = read_runs(options.tables, options.base, run.control);
   std::vector<Reach> table;
   for (const SceneRuns& scene : scenes)
     for (const Reach& reach : reach_table(scene)) table.push_back(reach);

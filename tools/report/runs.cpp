@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <sstream>
 
 #include "libguide/base/error.h"
@@ -85,11 +86,83 @@ T& named(std::vector<T>& list, const std::string& name) {
   return list.emplace_back(T{name, {}});
 }
 
-void add(std::vector<SceneRuns>& scenes, const Checkpoint& c) {
+using Run = std::vector<Checkpoint>;  // of one seed
+
+Run& run_of(std::vector<SceneRuns>& scenes, const Checkpoint& c) {
   Method& method = named(named(scenes, c.scene).methods, c.method);
-  for (std::vector<Checkpoint>& run : method.seeds)
-    if (run[0].seed == c.seed) return run.push_back(c);
-  method.seeds.push_back({c});
+  for (Run& run : method.seeds)
+    if (run[0].seed == c.seed) return run;
+  return method.seeds.emplace_back();
+}
+
+// A render that ends before its last checkpoints writes them all then: one of them counts.
+void add(std::vector<SceneRuns>& scenes, const Checkpoint& c, const std::string& where) {
+  Run& run = run_of(scenes, c);
+  for (const Checkpoint& other : run) {
+    if (other.seconds != c.seconds) continue;
+    if (other.spp == c.spp && other.relmse == c.relmse) return;
+    fail(
+        "{}: scene {}, method {}, seed {} has another row of the same time; "
+        "remove one, or give them methods or seeds of their own",
+        where, c.scene, c.method, c.seed);
+  }
+  run.push_back(c);
+}
+
+double apart(const Checkpoint& a, const Checkpoint& b) {
+  return std::abs(std::log(a.seconds / b.seconds));
+}
+
+const Checkpoint& nearest(const Run& run, const Checkpoint& c) {
+  return *std::min_element(run.begin(), run.end(), [&](const Checkpoint& a, const Checkpoint& b) {
+    return apart(a, c) < apart(b, c);
+  });
+}
+
+// The checkpoint of `other` that is c of `own` at another seed, or nullptr: each is the nearest to
+// the other. A render writes within half a pass of the time it was told, which may be far for the
+// first ones; times that double must stay apart.
+const Checkpoint* partner(const Checkpoint& c, const Run& own, const Run& other) {
+  constexpr double kMostApart = 0.5 * std::numbers::ln2;
+  const Checkpoint& found = nearest(other, c);
+  return &nearest(own, found) == &c && apart(c, found) < kMostApart ? &found : nullptr;
+}
+
+// The checkpoints that all seeds have, so that those of one index are of one time.
+std::vector<Run> common_checkpoints(const std::vector<Run>& seeds) {
+  std::vector<Run> common(seeds.size());
+  for (const Checkpoint& c : seeds[0]) {
+    std::vector<const Checkpoint*> partners;
+    for (const Run& run : seeds)
+      if (const Checkpoint* found = partner(c, seeds[0], run)) partners.push_back(found);
+    if (partners.size() < seeds.size()) continue;
+    for (size_t i = 0; i < seeds.size(); ++i) common[i].push_back(*partners[i]);
+  }
+  return common;
+}
+
+size_t count(const std::vector<Run>& seeds) {
+  size_t sum = 0;
+  for (const Run& run : seeds) sum += run.size();
+  return sum;
+}
+
+void align(const SceneRuns& scene, Method& method, const RunControl& control) {
+  for (Run& run : method.seeds)
+    std::sort(run.begin(), run.end(),
+              [](const Checkpoint& a, const Checkpoint& b) { return a.seconds < b.seconds; });
+  const size_t read = count(method.seeds);
+  method.seeds = common_checkpoints(method.seeds);
+  if (method.seeds[0].empty())
+    fail(
+        "scene {}, method {}: no time is common to all its seeds; render them with the same "
+        "--checkpoints",
+        scene.name, method.name);
+  if (const size_t lost = read - count(method.seeds); lost > 0)
+    control.warn(
+        fmt::format("scene {}, method {}: {} of {} rows are left out, of times that not "
+                    "all its seeds have",
+                    scene.name, method.name, lost, read));
 }
 
 void put_first(SceneRuns& scene, const std::string& base) {
@@ -102,7 +175,7 @@ void put_first(SceneRuns& scene, const std::string& base) {
 
 ChartPoint mean_at(const Method& method, size_t checkpoint, Field x, Field y) {
   ChartPoint point{0, 0, INFINITY, 0, 0, ""};
-  for (const std::vector<Checkpoint>& run : method.seeds) {
+  for (const Run& run : method.seeds) {
     point.x += std::log(x(run[checkpoint])) / static_cast<double>(method.seeds.size());
     const double value = y(run[checkpoint]);
     point.y += std::log(value) / static_cast<double>(method.seeds.size());
@@ -117,37 +190,33 @@ ChartPoint mean_at(const Method& method, size_t checkpoint, Field x, Field y) {
 
 }  // namespace
 
-std::vector<SceneRuns> read_runs(const std::vector<std::string>& tables, const std::string& base) {
+std::vector<SceneRuns> read_runs(const std::vector<std::string>& tables, const std::string& base,
+                                 const RunControl& control) {
   std::vector<SceneRuns> scenes;
   for (const std::string& path : tables) {
     const CsvTable table = read_csv(path);
     const RowReader reader(table, path);
-    for (size_t i = 0; i < table.rows.size(); ++i) add(scenes, reader.read(i));
+    for (size_t i = 0; i < table.rows.size(); ++i)
+      add(scenes, reader.read(i), fmt::format("\"{}\": record {}", path, i + 2));
   }
   if (scenes.empty()) fail("\"{}\": there are no rows to report", tables[0]);
   for (SceneRuns& scene : scenes) {
     if (!base.empty()) put_first(scene, base);
-    for (Method& method : scene.methods)
-      for (std::vector<Checkpoint>& run : method.seeds)
-        std::stable_sort(run.begin(), run.end(), [](const Checkpoint& a, const Checkpoint& b) {
-          return a.seconds < b.seconds;
-        });
+    for (Method& method : scene.methods) align(scene, method, control);
   }
   return scenes;
 }
 
 ChartLine line_of(const Method& method, Field x, Field y) {
-  size_t checkpoints = method.seeds[0].size();
-  for (const std::vector<Checkpoint>& run : method.seeds)
-    checkpoints = std::min(checkpoints, run.size());
   ChartLine line{method.name, {}};
-  for (size_t i = 0; i < checkpoints; ++i) line.points.push_back(mean_at(method, i, x, y));
+  for (size_t i = 0; i < method.seeds[0].size(); ++i)
+    line.points.push_back(mean_at(method, i, x, y));
   return line;
 }
 
 ChartPoint final_mean(const Method& method, Field y) {
   ChartPoint point{0, 0, INFINITY, 0, static_cast<int>(method.seeds.size()), ""};
-  for (const std::vector<Checkpoint>& run : method.seeds) {
+  for (const Run& run : method.seeds) {
     const double value = y(run.back());
     point.y += value / point.rows;
     point.low = std::min(point.low, value);

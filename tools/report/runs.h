@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "libguide/base/run_control.h"
 #include "tools/common/chart_data.h"
 
 namespace waylight {
@@ -23,7 +24,8 @@ using Field = double (*)(const Checkpoint&);
 
 struct Method {
   std::string name;
-  std::vector<std::vector<Checkpoint>> seeds;  // each of rising time
+  // Each of rising time; checkpoints of one index are of one time.
+  std::vector<std::vector<Checkpoint>> seeds;
 
   const Checkpoint& last() const { return seeds[0].back(); }
 };
@@ -34,10 +36,13 @@ struct SceneRuns {
 };
 
 // Scenes and methods in the order in which they appear; `base`, if not empty, comes first in each.
-// Throws Error naming file and row for what is missing.
-std::vector<SceneRuns> read_runs(const std::vector<std::string>& tables, const std::string& base);
+// Of the checkpoints those stay that all seeds of a method have, with a warning where that is not
+// all. Throws Error naming file and row for what is missing, and for two rows of one seed and time
+// that differ.
+std::vector<SceneRuns> read_runs(const std::vector<std::string>& tables, const std::string& base,
+                                 const RunControl& control);
 
-// Geometric means over seeds, and the range of y, at each checkpoint that all seeds have.
+// Geometric means over seeds, and the range of y, at each checkpoint.
 ChartLine line_of(const Method& method, Field x, Field y);
 // The same of the last checkpoint: arithmetic mean, for what is no error.
 ChartPoint final_mean(const Method& method, Field y);

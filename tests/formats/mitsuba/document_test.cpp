@@ -51,6 +51,18 @@ TEST_F(DocumentTest, UndefinedNameIsAnErrorWithRemedy) {
   EXPECT_TRUE(mentions(error, "did you mean \"width\"")) << error;
 }
 
+TEST_F(DocumentTest, NamesThatMultiplyAreStopped) {
+  std::string body = "<default name=\"a\" value=\"0123456789\"/>\n";
+  for (char name = 'b'; name < 'i'; ++name) {  // 10^8 bytes in the last
+    std::string ten;
+    for (int i = 0; i < 10; ++i) ten += {'$', static_cast<char>(name - 1)};
+    body += fmt::format("<default name=\"{}\" value=\"{}\"/>\n", name, ten);
+  }
+  const std::string error = parse_error(body);
+  EXPECT_TRUE(mentions(error, "scene.xml\":9: <default")) << error;
+  EXPECT_TRUE(mentions(error, "more than 32 MiB")) << error;
+}
+
 TEST_F(DocumentTest, IncludesAreSplicedInTheirOwnDialect) {
   std::filesystem::create_directory(path("parts"));
   put("parts/a.xml", wrap("<include filename=\"b.xml\"/>", "0.6.0"));

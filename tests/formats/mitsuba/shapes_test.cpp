@@ -1,3 +1,4 @@
+#include "formats/mesh_repair.h"
 #include "formats/mitsuba/scene_texts.h"
 #include "libguide/scene/mesh_prepare.h"
 
@@ -68,6 +69,53 @@ TEST_F(ShapesTest, CubeIsClosedAndOutward) {
   const TriangleMesh cube = mesh("<shape type=\"cube\"/>");
   EXPECT_NEAR(area_of(cube), 24, 1e-5);
   expect_outward(cube);
+}
+
+// Mitsuba's src/shapes/cube.cpp, where v = 0 is the top row: per face the axes along which u and v
+// rise.
+TEST_F(ShapesTest, CubeHasTheTextureCoordinatesOfMitsuba) {
+  const struct {
+    Vec3 normal, u, v;
+  } faces[] = {{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}},  {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+               {{0, 1, 0}, {-1, 0, 0}, {0, 0, -1}}, {{0, -1, 0}, {0, 0, 1}, {1, 0, 0}},
+               {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}},   {{0, 0, -1}, {0, -1, 0}, {1, 0, 0}}};
+  const TriangleMesh cube = mesh("<shape type=\"cube\"/>");
+  for (size_t i = 0; i < cube.triangles.size(); ++i)
+    for (const auto& face : faces)
+      for (uint32_t corner : cube.triangles[i]) {
+        if (normal_of(cube, i).dot(face.normal) < 0.5f) continue;
+        const Vec3& p = cube.positions[corner];
+        const Vec2 expected(0.5f * (1 + p.dot(face.u)), 1 - 0.5f * (1 + p.dot(face.v)));
+        EXPECT_EQ(cube.uvs[corner], expected) << face.normal.transpose() << " at " << p.transpose();
+      }
+}
+
+// Where azimuth is 0: along the first axis of coordinate_system(p1 - p0), of which the dialects
+// have one each (src/libcore/util.cpp; include/mitsuba/core/vector.h).
+TEST_F(ShapesTest, AzimuthOfACylinderBeginsWhereMitsubaHasIt) {
+  const auto start = [&](const Vec3& axis, const std::string& version) {
+    return mesh(fmt::format(R"(<shape type="cylinder"><point name="p1" x="{}" y="{}" z="{}"/>
+                            </shape>)",
+                            axis.x(), axis.y(), axis.z()),
+                version)
+        .positions[0];
+  };
+  const struct {
+    Vec3 axis, old, current;
+  } cases[] = {{{0, 0, 1}, {1, 0, 0}, {1, 0, 0}},
+               {{0, 0, -1}, {1, 0, 0}, {1, 0, 0}},
+               {{0, 1, 0}, {1, 0, 0}, {1, 0, 0}},
+               {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+               {{0.6f, 0, 0.8f}, {0, -1, 0}, {0.8f, 0, -0.6f}},
+               {{0, 0.6f, -0.8f}, {1, 0, 0}, {1, 0, 0}}};
+  for (const auto& c : cases) {
+    EXPECT_LT((start(c.axis, "0.6.0") - c.old).norm(), 1e-6f) << c.axis.transpose();
+    EXPECT_LT((start(c.axis, "3.0.0") - c.current).norm(), 1e-6f) << c.axis.transpose();
+  }
+  const TriangleMesh tube = mesh("<shape type=\"cylinder\"/>");
+  EXPECT_EQ(tube.uvs[0], Vec2(0, 1));
+  EXPECT_LT((tube.positions[2 * 128] - Vec3(0, 1, 0)).norm(), 1e-6f);
+  EXPECT_EQ(tube.uvs[2 * 128].x(), 0.25f);
 }
 
 TEST_F(ShapesTest, DiskAndCylinderHaveTheirAreas) {
@@ -155,6 +203,34 @@ TEST_F(ShapesTest, DamagedMeshNamesMeshAndElement) {
   EXPECT_TRUE(mentions(error, "scene.xml\":2") && mentions(error, "a.ply")) << error;
 }
 
+// The numbers of one element would be counted with those of the other.
+TEST_F(ShapesTest, PlyWithTwoElementsOfANameIsRefused) {
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  const std::string normal = "property float nx\nproperty float ny\nproperty float nz\n";
+  const std::string faces = "element face 1\nproperty list uchar int vertex_indices\n";
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\n" + xyz;
+  put("two.ply", head + "element vertex 3\n" + xyz + normal + faces + "end_header\n" +
+                     "0 0 0\n1 0 0\n0 1 0\n" + "0 0 1 0 0 1\n1 0 1 0 0 1\n0 1 1 0 0 1\n3 3 4 5\n");
+  std::string error = import_error(file_shape("ply", "two.ply"));
+  EXPECT_TRUE(mentions(error, "line 7 of the header: a second element \"vertex\"")) << error;
+  put("two.ply", head + faces + faces + "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n");
+  error = import_error(file_shape("ply", "two.ply"));
+  EXPECT_TRUE(mentions(error, "a second element \"face\"")) << error;
+}
+
+TEST_F(ShapesTest, MeshWithNormalsForSomeVerticesOnlyIsRefused) {
+  TriangleMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  mesh.uvs.resize(2);
+  EXPECT_TRUE(mentions(testing::error_of([&] { finish_mesh(mesh, "a.ply", nullptr); }),
+                       "2 texture coordinates for 3 vertices"));
+  mesh.uvs.clear();
+  mesh.normals.resize(4);
+  EXPECT_TRUE(mentions(testing::error_of([&] { finish_mesh(mesh, "a.ply", nullptr); }),
+                       "4 normals for 3 vertices"));
+}
+
 TEST_F(ShapesTest, CoordinatesBeyondReasonNameTheShape) {
   const std::string far =
       "<transform name=\"to_world\"><translate x=\"1e30\"/></transform></shape>";
@@ -175,6 +251,25 @@ TEST_F(ShapesTest, RepairsAndIgnoredOptionsAreWarnings) {
   ASSERT_EQ(warnings_.size(), 3u);  // and no sensor
   EXPECT_TRUE(mentions(warnings_[0], "normals"));
   EXPECT_TRUE(mentions(warnings_[1], "max_smooth_angle"));
+}
+
+// Mitsuba 0.6 reads the materials of an OBJ file, later ones do not.
+TEST_F(ShapesTest, MaterialsOfAnObjFileThatAreNotReadGetAWarning) {
+  put("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+  put("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n# usemtl red\nf 1 2 3\n");
+  const auto warned = [&](const std::string& body, const std::string& version) {
+    shape(body, version);
+    return !warnings_.empty() && mentions(warnings_[0], "materials of its file are not read");
+  };
+  const auto load = [](const char* value) {
+    return fmt::format("<boolean name=\"loadMaterials\" value=\"{}\"/>", value);
+  };
+  EXPECT_TRUE(warned(file_shape("obj", "a.obj"), "0.6.0"));
+  EXPECT_TRUE(mentions(warnings_[0], "scene.xml\":2: <shape type=\"obj\">")) << warnings_[0];
+  EXPECT_FALSE(warned(file_shape("obj", "a.obj"), "3.0.0"));
+  EXPECT_FALSE(warned(file_shape("obj", "a.obj", load("false")), "0.6.0"));
+  EXPECT_FALSE(warned(file_shape("obj", "a.obj", "<bsdf type=\"diffuse\"/>"), "0.6.0"));
+  EXPECT_FALSE(warned(file_shape("obj", "plain.obj", load("true")), "0.6.0"));
 }
 
 TEST_F(ShapesTest, UnknownShapeIsAnErrorOrLeftOut) {
