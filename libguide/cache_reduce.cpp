@@ -9,9 +9,6 @@
 namespace waylight {
 namespace {
 
-// A weight, mean and covariance; a weight, direction and concentration.
-constexpr int kGaussianParameters = 6, kVmfParameters = 4;
-
 MergeLimit limit_of(double samples, int parameters, const CacheReduceOptions& options) {
   return options.by_evidence && samples > 0 ? MergeLimit::by_evidence(samples, parameters)
                                             : MergeLimit(options.max_cost);

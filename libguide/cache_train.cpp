@@ -1,10 +1,10 @@
 #include "libguide/cache_train.h"
 
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "libguide/base/error.h"
+#include "libguide/base/stopwatch.h"
 #include "libguide/cache/escape_histogram.h"
 #include "libguide/cache/guide_cache_view.h"
 #include "libguide/cache/photon_rules.h"
@@ -61,7 +61,7 @@ void CacheTrainOptions::validate() const {
           "medium_photons_per_cell is {}: must be 64..10000000", medium_photons_per_cell);
   require(max_cells >= 1 && max_cells <= 10'000'000, "max_cells is {}: must be 1..10000000",
           max_cells);
-  require(normal_spread > 0 && normal_spread <= 1, "normal_spread is {}: must be in (0, 1]",
+  require(normal_spread >= 0 && normal_spread <= 1, "normal_spread is {}: must be in [0, 1]",
           normal_spread);
   require(prior.v >= 1 && std::isfinite(prior.v), "prior.v is {}: must be at least 1", prior.v);
   require(prior.a > 2 && std::isfinite(prior.a), "prior.a is {}: must be above 2", prior.a);
@@ -112,7 +112,7 @@ struct CacheTrainer::Impl {
   bool merges_alike_;
   TrainingClock clock_, medium_clock_;
   bool has_media_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch stopwatch_;
 };
 
 CacheTrainer::Impl::Impl(const CacheTrainOptions& options, const PhotonStreamInfo& stream,
@@ -266,8 +266,7 @@ void CacheTrainer::Impl::summarise(CacheTrainSummary& summary) const {
   summary.bytes = surfaces_.tree().bytes() + (refits_ ? refits_->tree().bytes() : 0);
   summary.media.cells_before_merging = medium_cells_before_merging_;
   if (!cache_.medium.cells.empty()) summary.media.bytes = media_.tree().bytes();
-  summary.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  summary.seconds = stopwatch_.seconds();
 }
 
 CacheTrainer::CacheTrainer(const CacheTrainOptions& options, const PhotonStreamInfo& stream,

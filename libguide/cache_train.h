@@ -23,7 +23,8 @@ struct CacheTrainOptions {
   int photons_per_cell = 300;          // a cell that saw more is split, 64..10^7
   int medium_photons_per_cell = 2000;  // the same of cells of media
   int max_cells = 200'000;             // 1..10^7, of surfaces and of media each
-  float normal_spread = 0.9f;  // cells whose mean normal is shorter are split by orientation
+  // Cells whose mean normal is shorter are split by orientation, 0..1; 0: none.
+  float normal_spread = 0.9f;
   DirectLight direct = DirectLight::drop;
   // At the end, cells become one where their photons cannot tell their light apart.
   bool merge_alike = false;

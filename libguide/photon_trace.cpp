@@ -1,11 +1,11 @@
 #include "libguide/photon_trace.h"
 
-#include <chrono>
 #include <optional>
 #include <vector>
 
 #include "libguide/base/error.h"
 #include "libguide/base/parallel.h"
+#include "libguide/base/stopwatch.h"
 #include "libguide/transport/photon_tracer.h"
 #include "libguide/transport/radiance_tracer.h"
 
@@ -19,7 +19,7 @@ void PhotonTraceOptions::validate() const {
           "--paths carry radiance and --from camera importance: trace each into a file of its own");
   require(max_depth >= 1 && max_depth <= 10000, "--max-depth must be in [1, 10000], not {}",
           max_depth);
-  require(rr_depth >= 0, "--rr-depth must not be negative, but is {}", rr_depth);
+  require(rr_depth >= 0 && rr_depth <= 10000, "--rr-depth must be in [0, 10000], not {}", rr_depth);
 }
 
 namespace {
@@ -150,7 +150,7 @@ PhotonTraceSummary trace_photons(const Scene& scene, const PhotonTraceOptions& o
                                  const MediumPhotonSink& in_media) {
   options.validate();
   check_guides(options, guides);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   Tracing tracing(scene, options, guides);
   PhotonTraceSummary summary;
   const auto pass_on = [&](const Block& block) {
@@ -169,7 +169,7 @@ PhotonTraceSummary trace_photons(const Scene& scene, const PhotonTraceOptions& o
     control.progress(double(summary.emitted + summary.paths), double(options.count + options.paths),
                      "particles");
   }
-  summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  summary.seconds = stopwatch.seconds();
   return summary;
 }
 

@@ -20,7 +20,7 @@ struct PhotonTraceOptions {
   uint64_t seed = 0;
   uint32_t pass = 0;   // each pass has its own random numbers
   int max_depth = 64;  // scattering events per particle, 1..10000
-  int rr_depth = 4;    // scattering events before Russian roulette begins
+  int rr_depth = 4;    // scattering events before Russian roulette begins, 0..10000
 
   void validate() const;
 };

@@ -111,44 +111,68 @@ Roulette roulette_of(const RenderOptions& options) {
   return options.mode == RenderMode::bsdf ? Roulette::throughput : Roulette::guided;
 }
 
-void RenderOptions::validate() const {
-  require(spp > 0 || time > 0 || error > 0, "one of --spp, --time and --error must be given");
-  require(spp >= 0 && spp <= 1 << 24, "--spp must be in [1, 16777216], not {}", spp);
-  require(time >= 0 && std::isfinite(time), "--time must be a number of seconds, not {}", time);
-  require(error >= 0 && std::isfinite(error), "--error must be positive, not {}", error);
-  require(std::is_sorted(checkpoints.begin(), checkpoints.end(), std::less_equal<>()) &&
-              (checkpoints.empty() || (checkpoints[0] > 0 && std::isfinite(checkpoints.back()))),
-          "--checkpoints must be rising numbers of seconds");
+namespace {
+
+void check_ending(const RenderOptions& o) {
+  require(o.spp > 0 || o.time > 0 || o.error > 0, "one of --spp, --time and --error must be given");
+  require(o.spp >= 0 && o.spp <= 1 << 24, "--spp must be in [1, 16777216], not {}", o.spp);
+  require(o.time >= 0 && std::isfinite(o.time), "--time must be a number of seconds, not {}",
+          o.time);
+  require(o.error >= 0 && std::isfinite(o.error), "--error must be positive, not {}", o.error);
   require(
-      width >= 0 && height >= 0 && width <= 65536 && height <= 65536 && (width > 0) == (height > 0),
-      "--size must be WIDTHxHEIGHT with both in [1, 65536]");
-  require(max_depth >= -2 && max_depth != 0, "--max-depth must be at least 1, or -1 for no limit");
-  require(rr_depth >= -1, "--rr-depth must not be negative");
-  require(distance_bias > 0 && distance_bias <= 10, "--distance-bias must be in (0, 10], not {}",
-          distance_bias);
-  require(weight_window >= 1 && weight_window <= WeightWindow::kMaxRatio,
-          "--weight-window must be in [1, {}], not {}", WeightWindow::kMaxRatio, weight_window);
-  require(split >= 0 && split <= kMaxSplit, "--split must be in [0, {}], not {}", kMaxSplit, split);
-  require(split <= 1 || roulette_of(*this) == Roulette::guided,
+      std::is_sorted(o.checkpoints.begin(), o.checkpoints.end(), std::less_equal<>()) &&
+          (o.checkpoints.empty() || (o.checkpoints[0] > 0 && std::isfinite(o.checkpoints.back()))),
+      "--checkpoints must be rising numbers of seconds");
+}
+
+void check_paths(const RenderOptions& o) {
+  require(o.width >= 0 && o.height >= 0 && o.width <= 65536 && o.height <= 65536 &&
+              (o.width > 0) == (o.height > 0),
+          "--size must be WIDTHxHEIGHT with both in [1, 65536]");
+  require(o.max_depth >= -2 && o.max_depth != 0,
+          "--max-depth must be at least 1, or -1 for no limit");
+  require(o.rr_depth >= -1, "--rr-depth must not be negative");
+  require(o.distance_bias > 0 && o.distance_bias <= 10,
+          "--distance-bias must be in (0, 10], not {}", o.distance_bias);
+  require(o.weight_window >= 1 && o.weight_window <= WeightWindow::kMaxRatio,
+          "--weight-window must be in [1, {}], not {}", WeightWindow::kMaxRatio, o.weight_window);
+  require(o.split >= 0 && o.split <= kMaxSplit, "--split must be in [0, {}], not {}", kMaxSplit,
+          o.split);
+  require(o.split <= 1 || roulette_of(o) == Roulette::guided,
           "--split needs guided roulette: --rr guided, or a mode other than bsdf");
-  require(bsdf_share >= 0.01f && bsdf_share <= 1,
-          "--bsdf-share must be learned or in [0.01, 1], not {}", bsdf_share);
-  require(mode != RenderMode::automatic || share_rule == ShareRule::automatic,
+}
+
+void check_directions(const RenderOptions& o) {
+  require(o.bsdf_share >= 0.01f && o.bsdf_share <= 1,
+          "--bsdf-share must be learned or in [0.01, 1], not {}", o.bsdf_share);
+  require(o.mode != RenderMode::automatic || o.share_rule == ShareRule::automatic,
           "--bsdf-share is not for --mode auto, which finds it out by itself");
   require(
-      share_rule != ShareRule::learned || mode != RenderMode::ris,
+      o.share_rule != ShareRule::learned || o.mode != RenderMode::ris,
       "--bsdf-share learned is not for --mode ris, whose share is that of the candidates: give a "
       "number");
-  const bool of_camera = !fluence && !sphere;
-  require(of_camera || mode != RenderMode::automatic,
+  require(o.candidates >= 1 && o.candidates <= 64, "--candidates must be in [1, 64], not {}",
+          o.candidates);
+}
+
+void check_view(const RenderOptions& o) {
+  const bool of_camera = !o.fluence && !o.sphere;
+  require(of_camera || o.mode != RenderMode::automatic,
           "--mode auto compares ways to render what the camera sees, which --fluence and --sphere "
           "are not");
-  require(of_camera || pixel_estimate == PixelEstimateMode::cache,
+  require(of_camera || o.pixel_estimate == PixelEstimateMode::cache,
           "--pixel-estimate preview is of what the camera sees, which --fluence and --sphere are "
           "not");
-  require(!fluence || !sphere, "--fluence and --sphere are two pictures: give one of them");
-  require(candidates >= 1 && candidates <= 64, "--candidates must be in [1, 64], not {}",
-          candidates);
+  require(!o.fluence || !o.sphere, "--fluence and --sphere are two pictures: give one of them");
+}
+
+}  // namespace
+
+void RenderOptions::validate() const {
+  check_ending(*this);
+  check_paths(*this);
+  check_directions(*this);
+  check_view(*this);
 }
 
 float default_share(RenderMode mode) {

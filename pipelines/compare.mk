@@ -11,7 +11,7 @@
 #
 # SCENES           pipelines of this folder; those of scenes made elsewhere need WAYLIGHT_SCENES
 # METHODS          of scenes without media, of pipelines/rules.mk
-# MEDIA_METHODS    of scenes with media, of pipelines/media.mk
+# MEDIA_METHODS    of scenes with media, of pipelines/media-methods.mk
 # TIMES SEEDS      as in pipelines/rules.mk
 # SIZE             of the images, in place of each scene's own
 # options_SCENE    what else the scene's pipeline gets
@@ -35,9 +35,9 @@ QUIET ?=
 
 ROOT := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 
-# kitchenette is compared with the reference that its origin made.
-options_kitchenette := REFERENCE=$(WAYLIGHT_SCENES)/kitchenette/kitchenette_ref.exr \
-  COMPARE_FLAGS=--resize-reference
+# At its own size kitchenette is compared with the reference that its origin made.
+options_kitchenette := $(if $(SIZE),,REFERENCE=$(WAYLIGHT_SCENES)/kitchenette/kitchenette_ref.exr \
+  COMPARE_FLAGS='$(COMPARE_FLAGS) --resize-reference')
 methods_of = $(if $(filter $(1),$(media_scenes)),$(MEDIA_METHODS),$(METHODS))
 # A shipped reference has one size.
 size_of = $(if $(SIZE),SIZE=$(SIZE) 'REFERENCE=$$(OUT)/reference.exr')

@@ -4,6 +4,6 @@ NAME := daylight
 SCENE := pipelines/scenes/daylight.xml
 TRAIN_FROM ?= camera
 PHOTONS ?= 800000
-PASSES ?= 3
+PASSES ?= $(if $(filter auto,$(PHOTONS)),0,3)
 
 include $(dir $(lastword $(MAKEFILE_LIST)))rules.mk

@@ -8,11 +8,12 @@ traced := $(or $(traced_$(TRAIN_FROM)),$(error TRAIN_FROM is $(TRAIN_FROM): give
 
 ifeq ($(PHOTONS),auto)
 $(if $(filter-out 0,$(PASSES)),$(error PHOTONS=auto decides on the passes itself: leave PASSES at 0))
-$(eval $(call stamp,train-until,$(TRAIN_FOR) $(SIZE)))
+$(eval $(call stamp,train-until,$(strip $(TRAIN_FOR) $(SIZE) $(FIRST_PHOTONS) $(MOST_PHOTONS))))
 $(OUT)/scene.cache $(OUT)/photon-trace.json $(OUT)/cache-train.json &: $(SCENE) $(SCENE_INPUTS) \
     $(foreach s,photon-trace cache-train passes train-until,$(OUT)/.options/$(s)) \
     $(foreach t,photon-trace cache-train render image-compare,$(BIN)/$(t))
-	BIN='$(BIN)' SIZE='$(SIZE)' SEED='$(SEED)' QUIET='$(QUIET)' TRAIN_FROM='$(TRAIN_FROM)' \
+	BIN='$(BIN)' LAUNCH='$(LAUNCH)' SIZE='$(SIZE)' SEED='$(SEED)' QUIET='$(QUIET)' \
+	  FIRST_PHOTONS='$(FIRST_PHOTONS)' MOST_PHOTONS='$(MOST_PHOTONS)' TRAIN_FROM='$(TRAIN_FROM)' \
 	  PHOTON_TRACE_FLAGS='$(PHOTON_TRACE_FLAGS)' CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS)' \
 	  $(ROOT)/train-until.sh $(OUT) $(TRAIN_FOR) $(SCENE) $(SCENE_FLAGS)
 
@@ -89,7 +90,7 @@ $(OUT)/pass-$(1).exr $(OUT)/pass-$(1).json &: $(SCENE) $(SCENE_INPUTS) \
 	  $(RENDER_FLAGS) $(QUIET)
 
 $(OUT)/pass-$(1).csv: $(OUT)/pass-$(1).exr $(OUT)/pass-$(1).json $(REFERENCE) \
-    $(BIN)/image-compare
+    $(OUT)/.options/measure $(BIN)/image-compare
 	$$(call measure,$(OUT)/pass-$(1),product)
 endef
 $(foreach i,$(pass_numbers),$(eval $(call pass_rules,$(i))))

@@ -20,15 +20,19 @@
 # BIN              folder of the executables                                  build/bin
 # LAUNCH           put before each command, for example `srun -n1`
 # SCENE_FLAGS      -D name=value for every tool that reads the scene
+# SCENE_INPUTS     files that the scene reads beside SCENE: all begins again when they change
+# QUIET            -q: tools say only what is wrong
 # SIZE             image size
 # SEED             of everything random
 # SEEDS            seeds of the renders, for charts with a band                $(SEED)
 # PHOTONS          particles to emit in one pass; auto: passes of more and more, until another would
-#                  not pay for itself in a render of TRAIN_FOR seconds (train-until.sh)
+#                  not pay for itself in a render of TRAIN_FOR seconds (train-until.sh); the first
+#                  traces FIRST_PHOTONS, none more than MOST_PHOTONS
 # TRAIN_FOR        the longest of TIMES
 # TRAIN_FROM       lights: PHOTONS teach the cache; camera: PATHS do, paths from the camera that carry
 #                  radiance back; both: both, in one cache
-# PATHS            camera paths of one pass                                   a quarter of PHOTONS
+# PATHS            camera paths of one pass                                   a quarter of PHOTONS,
+#                  and always so with PHOTONS=auto
 # PASSES           passes in which importons train an importance cache and photons guided by it the
 #                  radiance cache, each going on from the pass before; camera paths are guided by
 #                  the radiance cache of the pass before; 0: unguided, once
@@ -96,6 +100,7 @@ $(eval $(call stamp,cache-reduce,$(CACHE_REDUCE_FLAGS)))
 $(eval $(call stamp,render,$(SCENE_FLAGS) $(SEED) $(SIZE) $(RENDER_FLAGS)))
 $(eval $(call stamp,reference,$(SCENE_FLAGS) $(SIZE) $(REFERENCE_SPP) $(REFERENCE_MODE) \
   $(REFERENCE_FLAGS)))
+$(eval $(call stamp,measure,$(REFERENCE) $(COMPARE_FLAGS)))
 $(eval $(call stamp,chart,$(METHODS) $(TIMES) $(SEEDS)))
 
 $(OUT)/scene.brdf $(OUT)/brdf-fit.json &: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/brdf-fit \
@@ -158,7 +163,8 @@ $(6:=.exr) $(6:=.json) &: $(SCENE) $(SCENE_INPUTS) $$(caches_$(4)) $(OUT)/.optio
 	  --seed $(2) --aov variance --png $(5).png --stats $(5).json $(flags_$(1)) $(RENDER_FLAGS) \
 	  $(QUIET)
 
-$(6:=.csv): %.csv: %.exr $(6:=.json) $(REFERENCE) $$(preprocess_$(4)) $(BIN)/image-compare
+$(6:=.csv): %.csv: %.exr $(6:=.json) $(REFERENCE) $$(preprocess_$(4)) $(OUT)/.options/measure \
+    $(BIN)/image-compare
 	$$(call measure,$$*,$(1),$$(preprocess_$(4)),--error-image $$*-error.png)
 endef
 render_rules_of = $(call render_rule,$(1),$(2),$(call mode_of,$(1)),$(call needs_of,$(1)),$(call \

@@ -88,8 +88,8 @@ $(OUT)/.options/$(1): FORCE
 	@if cmp -s $$@.new $$@; then rm $$@.new; else mv $$@.new $$@; fi
 endef
 $(eval $(call stamp,methods,$(methods)))
-$(eval $(call stamp,sizes,$(SIZE) $(SPP) $(SEEDS) $(REFERENCE_SPP) $(PHOTONS) $(ENTRIES) $(TIMED) \
-  $(CACHE_TRAIN_FLAGS)))
+$(eval $(call stamp,sizes,$(SIZE) $(SPP) $(SEEDS) $(REFERENCE_SPP) $(PHOTONS) $(ENTRIES) $(LIMIT) \
+  $(TIMED) $(CACHE_TRAIN_FLAGS)))
 $(eval $(call stamp,cases,$(CASES)))
 $(foreach c,$(CASES),$(eval $(call stamp,$(c),'$(shell grep -E "^$(c) +\|" $(table))')))
 

@@ -48,8 +48,8 @@ $(OUT)/reduction/%.exr $(OUT)/reduction/%.json: $(OUT)/reduction/%.brdf $(OUT)/r
 	  --brdf $(OUT)/reduction/$*.brdf --cache $(OUT)/reduction/$*.cache
 
 $(OUT)/reduction/%.csv: $(OUT)/reduction/%.exr $(OUT)/reduction/%.json $(REFERENCE) \
-    $(BIN)/image-compare
-	$(BIN)/image-compare $(OUT)/reduction/$*.exr $(REFERENCE) $(COMPARE_FLAGS) --json > $@.json
+    $(OUT)/.options/measure $(BIN)/image-compare
+	$(LAUNCH) $(BIN)/image-compare $(OUT)/reduction/$*.exr $(REFERENCE) $(COMPARE_FLAGS) --json > $@.json
 	jq -rs --arg threshold $* -f $(ROOT)/tables/reduction.jq $(OUT)/reduction/$*.brdf.json \
 	  $(OUT)/reduction/$*.cache.json $(OUT)/reduction/$*.json $@.json > $@.tmp && mv $@.tmp $@
 
@@ -61,7 +61,7 @@ $(OUT)/reduction.csv: $(THRESHOLDS:%=$(OUT)/reduction/%.csv) $(OUT)/.options/red
 	  cat $(THRESHOLDS:%=$(OUT)/reduction/%.csv)) > $@.tmp && mv $@.tmp $@
 
 $(OUT)/reduction.svg: $(OUT)/reduction.csv $(BIN)/chart
-	$(BIN)/chart $< -o $@ --x cache_components --y relmse_trimmed --linear x --title "$(NAME): reduction" $(QUIET)
+	$(LAUNCH) $(BIN)/chart $< -o $@ --x cache_components --y relmse_trimmed --linear x --title "$(NAME): reduction" $(QUIET)
 
 # One core, so that the times are those of the method and not of its threads.
 $(OUT)/overhead/illumination.json: $(OUT)/reduced.cache $(OUT)/.options/study $(BIN)/render
@@ -95,7 +95,7 @@ against := $(or $(UNBIASED_AGAINST),$(OUT)/unbiased/$(base).exr)
 $(foreach m,$(METHODS),$(eval $(call unbiased_rule,$(m),$(call mode_of,$(m)),\
   $(if $(filter $(base),$(m)),77,78),$(call needs_of,$(m)))))
 $(OUT)/unbiased/%.json: $(OUT)/unbiased/%.exr $(against) $(BIN)/image-compare
-	$(BIN)/image-compare $< $(against) --z self --tile 32 --json > $@.tmp
+	$(LAUNCH) $(BIN)/image-compare $< $(against) --z self --tile 32 --json > $@.tmp
 	@mv $@.tmp $@
 
 others := $(filter-out $(base),$(METHODS))

@@ -26,7 +26,7 @@ options_gap-room := SIZE=640x360 PHOTONS=4000000
 options_jewelry := SIZE=640x360 PHOTONS=4000000
 options_veach-ajar := PHOTONS=8000000
 options_kitchenette := REFERENCE=$(WAYLIGHT_SCENES)/kitchenette/kitchenette_ref.exr \
-  COMPARE_FLAGS=--resize-reference
+  COMPARE_FLAGS='$(COMPARE_FLAGS) --resize-reference'
 reference_of = $(if $(findstring REFERENCE=,$(options_$(1))),,'REFERENCE=$$(OUT)/reference.exr')
 scene_make = $(MAKE) --no-print-directory -f $(ROOT)/$(1).mk OUT=$(OUT)/$(1) BIN=$(BIN) \
   WAYLIGHT_SCENES=$(WAYLIGHT_SCENES) TIMES='$(SECONDS)' SEEDS='$(SEEDS)' METHODS='$(METHODS)' \

@@ -69,7 +69,7 @@ $(OUT)/point-%.exr $(OUT)/point-%.json &: $(caches_$(study_needs)) $(OUT)/.optio
 	  --mode $(call mode_of,$(STUDY_METHOD)) $(call cache_flags,$(caches_$(study_needs))) \
 	  $(flags_$(STUDY_METHOD))
 $(OUT)/point-%.csv: $(OUT)/point-%.exr $(OUT)/point-%.json $(REFERENCE) \
-    $(preprocess_$(study_needs)) $(BIN)/image-compare
+    $(preprocess_$(study_needs)) $(OUT)/.options/measure $(BIN)/image-compare
 	$(call measure,$(OUT)/point-$*,$(STUDY_METHOD),$(preprocess_$(study_needs)))
 $(OUT)/point.csv: $(SEEDS:%=$(OUT)/point-%.csv)
 	@awk 'FNR > 1 || NR == 1' $^ > $@.tmp && mv $@.tmp $@

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Trains a cache until another pass would not pay for itself, for a render of so many seconds.
 #   train-until.sh FOLDER SECONDS SCENE [-D name=value ...]
-# Environment: BIN SIZE SEED FIRST_PHOTONS MOST_PHOTONS TRAIN_FROM PHOTON_TRACE_FLAGS
+# Environment: BIN LAUNCH SIZE SEED FIRST_PHOTONS MOST_PHOTONS TRAIN_FROM PHOTON_TRACE_FLAGS
 #   CACHE_TRAIN_FLAGS QUIET
 #
 # Each pass traces twice the photons of the one before and goes on with its cache. Two small renders
@@ -31,9 +31,9 @@ traced() {
 }
 
 train_pass() {
-  "$BIN/photon-trace" "${scene[@]}" -o "$work/pass.photons" $(traced) --seed "$SEED" \
+  ${LAUNCH:-} "$BIN/photon-trace" "${scene[@]}" -o "$work/pass.photons" $(traced) --seed "$SEED" \
     --pass "$pass" --stats "$work/photons-$pass.json" ${PHOTON_TRACE_FLAGS:-} ${QUIET:-}
-  "$BIN/cache-train" --photons "$work/pass.photons" $previous -o "$work/pass-$pass.cache" \
+  ${LAUNCH:-} "$BIN/cache-train" --photons "$work/pass.photons" $previous -o "$work/pass-$pass.cache" \
     --stats "$work/train-$pass.json" ${CACHE_TRAIN_FLAGS:-} ${QUIET:-}
   rm "$work/pass.photons"
   previous="--in $work/pass-$pass.cache"
@@ -47,11 +47,11 @@ train_pass() {
 probe() {
   local i
   for i in 1 2; do
-    "$BIN/render" "${scene[@]}" -o "$work/probe-$i.exr" --mode illumination --bsdf-share 0.5 \
+    ${LAUNCH:-} "$BIN/render" "${scene[@]}" -o "$work/probe-$i.exr" --mode illumination --bsdf-share 0.5 \
       --cache "$work/pass-$pass.cache" --spp 4 --size "$SIZE" --seed "$((SEED + i))" \
       --stats "$work/probe-$i.json" --quiet 2> /dev/null
   done
-  "$BIN/image-compare" "$work/probe-1.exr" "$work/probe-2.exr" --json > "$work/probe.json"
+  ${LAUNCH:-} "$BIN/image-compare" "$work/probe-1.exr" "$work/probe-2.exr" --json > "$work/probe.json"
   calculate "$(number "$work/probe.json" relmse_trimmed) * \
     ($(number "$work/probe-1.json" cpu_seconds) + $(number "$work/probe-2.json" cpu_seconds))"
 }

@@ -14,7 +14,7 @@
 #
 # SCENES           pipelines of this folder; that of a scene made elsewhere needs WAYLIGHT_SCENES
 # TIME             seconds of each render
-# METHODS          of pipelines/media.mk
+# METHODS          of pipelines/media-methods.mk
 # SIZE             of the images
 # SHAFTS_SIZE SHAFTS_SPP    of the images of light shafts
 OUT ?= out/volume-paper
@@ -28,6 +28,7 @@ SIZE ?= 320x180
 SHAFTS_SIZE ?= 640x360
 SHAFTS_SPP ?= 256 1024
 BIN ?= build/bin
+LAUNCH ?=
 
 ROOT := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 
@@ -76,7 +77,7 @@ $(shafts_cache): $(filter light-shafts,$(SCENES)) FORCE
 define shafts_rule
 $(OUT)/shafts/$(1)-%.png: $(shafts_cache) $(BIN)/render
 	@mkdir -p $$(@D)
-	$(BIN)/render $(ROOT)/scenes/light-shafts.xml -o $$(basename $$@).exr --png $$@ --mode bsdf \
+	$(LAUNCH) $(BIN)/render $(ROOT)/scenes/light-shafts.xml -o $$(basename $$@).exr --png $$@ --mode bsdf \
 	  --direction standard --rr throughput $(shafts_$(1)) --size $(SHAFTS_SIZE) --spp $$* \
 	  --seed 1 --aov variance --stats $$(basename $$@).json $(QUIET)
 endef

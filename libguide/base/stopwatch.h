@@ -5,6 +5,13 @@
 
 namespace waylight {
 
+// Processor seconds of this thread: other work on the machine does not count.
+inline double thread_seconds() {
+  timespec now;
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
 // Seconds of work: those in which checkpoints are written do not count.
 class Stopwatch {
  public:
@@ -12,9 +19,7 @@ class Stopwatch {
   // n, which other processes of a busy machine do not lengthen.
   explicit Stopwatch(int processors = 0) : processors_(processors) {}
 
-  double seconds() const {
-    return processors_ > 0 ? cpu_seconds() / processors_ : now() - start_;
-  }
+  double seconds() const { return processors_ > 0 ? cpu_seconds() / processors_ : now() - start_; }
   double cpu_seconds() const { return cpu_now() - cpu_start_; }
   template <typename Work>
   void paused(const Work& work) {

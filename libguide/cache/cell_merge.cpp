@@ -11,8 +11,6 @@
 namespace waylight {
 namespace {
 
-constexpr int kGaussianParameters = 6;  // a weight, mean and covariance
-
 DensityEstimate irradiance_of(const TrainingCell& cell, const CellMergeOptions& o) {
   return {cell.irradiance(o.now, o.min_area, o.photons_per_particle),
           cell.exposure(o.now, o.min_area), cell.irradiance_samples()};

@@ -6,8 +6,6 @@
 namespace waylight {
 namespace {
 
-constexpr int kVmfParameters = 4;  // a weight, mean and concentration
-
 KnownLobes<VmfComponent> lobes_of(const TrainingLight& light) {
   return {light.components(), light.record().effective_samples};
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The cells of a finished tree of surfaces, each fitted again to all photons of the stream that lie
-// in it.
+// The cells of a finished tree of surfaces, each fitted again to the photons of the stream that lie
+// in it, at most kMostPhotons of them, drawn at random.
 
 #include <vector>
 

@@ -58,7 +58,8 @@ std::vector<GaussianComponent> components_around(std::span<const WeightedPoint> 
 // The statistics whose maximum-likelihood M-step gives a component.
 ComponentStatistics statistics_of(const GaussianComponent& component);
 
-// Stepwise EM without allocation: one E-step over the batch, then the M-step. `components` and
+// Stepwise EM without allocation: one E-step over the batch, then the M-step. Statistics are kept
+// normalised (sum of s0 = 1) and decayed by eta_i = (i + 1)^-0.7. `components` and
 // `statistics` have the same length of at most kMaxEmComponents (statistics all zero before the
 // first update); those that keep support, n s0 >= 1e-3, are moved to the front and counted in the
 // result.
@@ -68,36 +69,5 @@ StepwiseResult stepwise_update(std::span<GaussianComponent> components,
                                std::span<ComponentStatistics> statistics, float& step,
                                std::span<const WeightedPoint> batch, float samples,
                                const MixturePrior& prior, float max_weight = kMaxTrainingWeight);
-
-// Stepwise EM: one mixture trained from a stream of batches. Statistics are kept normalised
-// (sum of s0 = 1) and decayed by eta_i = (i + 1)^-0.7.
-class StepwiseEm {
- public:
-  // statistics: parallel to components, or empty before the first update.
-  StepwiseEm(std::vector<GaussianComponent> components, std::vector<ComponentStatistics> statistics,
-             float step)
-      : components_(std::move(components)), statistics_(std::move(statistics)), step_(step) {
-    statistics_.resize(components_.size());
-  }
-
-  void update(std::span<const WeightedPoint> batch, float samples, const MixturePrior& prior) {
-    const StepwiseResult result =
-        stepwise_update(components_, statistics_, step_, batch, samples, prior);
-    components_.resize(result.count);
-    statistics_.resize(result.count);
-    rejected_ += result.rejected;
-  }
-
-  const std::vector<GaussianComponent>& components() const { return components_; }
-  const std::vector<ComponentStatistics>& statistics() const { return statistics_; }
-  float step() const { return step_; }
-  int rejected() const { return rejected_; }  // points in all
-
- private:
-  std::vector<GaussianComponent> components_;
-  std::vector<ComponentStatistics> statistics_;
-  float step_;
-  int rejected_ = 0;
-};
 
 }  // namespace waylight

@@ -61,6 +61,10 @@ std::vector<Component> valid_components(std::span<const Component> components) {
   return result;
 }
 
+// Parameters that a merge of two lobes saves: a weight, and mean and covariance of a Gaussian or
+// mean and concentration of a von Mises-Fisher lobe.
+constexpr int kGaussianParameters = 6, kVmfParameters = 4;
+
 // How much merging may cost in all: a part of collapse_cost, and so much for each merge.
 struct MergeLimit {
   MergeLimit(float percent_of_collapse) : percent(percent_of_collapse) {}

@@ -37,9 +37,4 @@ class VmfConvolution {
   std::array<Lanes, PhaseLobes::kMaxLobes> half_, norm_;  // -log2(e) kappa / 2; weights c(kappa)
 };
 
-// For one direction; keep the convolution for several of one cell.
-inline float convolved_pdf(const VmfMixture& light, const PhaseLobes& phase, const Vec3& w) {
-  return VmfConvolution(light, phase).pdf(w);
-}
-
 }  // namespace waylight

@@ -1,7 +1,6 @@
 #include "libguide/fit/lobe_fit.h"
 
-#include <ctime>
-
+#include "libguide/base/stopwatch.h"
 #include "libguide/directional/gaussian_reduction.h"
 #include "libguide/fit/ceres_fit.h"
 #include "libguide/fit/lobe_error.h"
@@ -31,20 +30,6 @@ enum Stream : uint64_t {
   kStartStream,
   kSelectionStream,
   kReportStream
-};
-
-// Of the processor on this thread: other work on the machine does not count.
-class Stopwatch {
- public:
-  double seconds() const { return now() - start_; }
-
- private:
-  static double now() {
-    timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return t.tv_sec + 1e-9 * t.tv_nsec;
-  }
-  double start_ = now();
 };
 
 using Components = std::vector<GaussianComponent>;
@@ -115,12 +100,12 @@ Components LobeFitter::fit_em(const LobeTargets& targets, std::span<const LobePo
 
 // With the components asked for.
 void LobeFitter::fit_asked(Work& work, std::span<const GaussianComponent> neighbour) const {
-  const Stopwatch em_watch;
+  const double em_begin = thread_seconds();
   work.points = draw_points(work.targets);
   work.em = fit_em(work.targets, work.points);
-  work.fit.em_seconds = em_watch.seconds();
+  work.fit.em_seconds = thread_seconds() - em_begin;
   if (options_.method == FitMethod::em || work.em.empty()) return;
-  const Stopwatch ceres_watch;
+  const double ceres_begin = thread_seconds();
   work.rows = lobe_rows(work.points, options_.samples);
   const bool nearer = neighbour.size() == work.em.size() &&
                       relative_cost(work.rows, neighbour) < relative_cost(work.rows, work.em);
@@ -128,7 +113,7 @@ void LobeFitter::fit_asked(Work& work, std::span<const GaussianComponent> neighb
       work.rows, nearer ? neighbour : std::span<const GaussianComponent>(work.em), {});
   work.ceres = refined.components;
   work.fit.ceres_iterations = refined.iterations;
-  work.fit.ceres_seconds = ceres_watch.seconds();
+  work.fit.ceres_seconds = thread_seconds() - ceres_begin;
 }
 
 void LobeFitter::choose_method(Work& work) const {
@@ -175,14 +160,14 @@ void LobeFitter::report(Work& work) const {
 
 LobeFit LobeFitter::fit(const LobeTargets& targets,
                         std::span<const GaussianComponent> neighbour) const {
-  const Stopwatch watch;
+  const double begin = thread_seconds();
   Work work{targets, {}, {}, {}, {}, {}};
   fit_asked(work, neighbour);
   if (work.em.empty()) return work.fit;
   choose_method(work);
   choose_count(work);
   report(work);
-  work.fit.seconds = watch.seconds();
+  work.fit.seconds = thread_seconds() - begin;
   return work.fit;
 }
 

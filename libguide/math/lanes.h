@@ -60,13 +60,6 @@ inline Lanes lanes_sum_splat(Lanes v) {
   return v + __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6);
 }
 
-// The largest lane in every lane.
-inline Lanes lanes_max_splat(Lanes v) {
-  v = lanes_max(v, __builtin_shufflevector(v, v, 4, 5, 6, 7, 0, 1, 2, 3));
-  v = lanes_max(v, __builtin_shufflevector(v, v, 2, 3, 0, 1, 6, 7, 4, 5));
-  return lanes_max(v, __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6));
-}
-
 // Lane i holds the sum of lanes 0..i.
 inline Lanes lanes_prefix_sum(Lanes v) {
   const Lanes zero = {};

@@ -33,7 +33,18 @@ double cubic(double theta, double c3, double c2, double c1, double c0) {
   return ((c3 * theta + c2) * theta + c1) * theta + c0;
 }
 
-// [Preetham et al. 1999, appendix A.2]; luminance in kcd/m^2.
+// [Preetham et al. 1999, appendix A.2] at turbidity t; luminance in kcd/m^2.
+void set_zenith(Sky& sky, double t, double sun_theta) {
+  const double chi = (4.0 / 9 - t / 120) * (std::numbers::pi - 2 * sun_theta);
+  sky.luminance.zenith = (4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192;
+  sky.x.zenith = t * t * cubic(sun_theta, 0.00166, -0.00375, 0.00209, 0) +
+                 t * cubic(sun_theta, -0.02903, 0.06377, -0.03202, 0.00394) +
+                 cubic(sun_theta, 0.11693, -0.21196, 0.06052, 0.25886);
+  sky.y.zenith = t * t * cubic(sun_theta, 0.00275, -0.00610, 0.00317, 0) +
+                 t * cubic(sun_theta, -0.04214, 0.08970, -0.04153, 0.00516) +
+                 cubic(sun_theta, 0.15346, -0.26756, 0.06670, 0.26688);
+}
+
 Sky make_sky(double t, double sun_theta) {
   Sky sky;
   sky.luminance = {0.1787 * t - 1.4630,
@@ -57,14 +68,7 @@ Sky make_sky(double t, double sun_theta) {
            -0.0109 * t + 0.0529,
            0,
            1};
-  const double chi = (4.0 / 9 - t / 120) * (std::numbers::pi - 2 * sun_theta);
-  sky.luminance.zenith = (4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192;
-  sky.x.zenith = t * t * cubic(sun_theta, 0.00166, -0.00375, 0.00209, 0) +
-                 t * cubic(sun_theta, -0.02903, 0.06377, -0.03202, 0.00394) +
-                 cubic(sun_theta, 0.11693, -0.21196, 0.06052, 0.25886);
-  sky.y.zenith = t * t * cubic(sun_theta, 0.00275, -0.00610, 0.00317, 0) +
-                 t * cubic(sun_theta, -0.04214, 0.08970, -0.04153, 0.00516) +
-                 cubic(sun_theta, 0.15346, -0.26756, 0.06670, 0.26688);
+  set_zenith(sky, t, sun_theta);
   for (Perez* p : {&sky.luminance, &sky.x, &sky.y}) p->normaliser = p->shape(1, sun_theta);
   return sky;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/stepwise_em.h"
 #include "libguide/base/sampler.h"
 #include "libguide/directional/em_step.h"
 #include "libguide/directional/gaussian_product.h"
@@ -120,7 +121,7 @@ void stepwise_em(benchmark::State& state) {
     const float u = s.next();
     if (const auto y = mixture.sample(u, s.next_2d())) batch.push_back({*y, 0.5f + s.next()});
   }
-  StepwiseEm em(initial_components(batch, 8, {}), {}, 0);
+  test::StepwiseEm em(initial_components(batch, 8, {}), {}, 0);
   for (auto _ : state) em.update(batch, 1000, {});
   state.SetItemsProcessed(state.iterations() * batch.size());
 }

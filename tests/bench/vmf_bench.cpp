@@ -82,7 +82,7 @@ void vmf_phase_about(benchmark::State& state) {
 BENCHMARK(vmf_phase_about);
 
 // With the convolution made for every direction (range 0 = 0), or once.
-void vmf_convolved_pdf(benchmark::State& state) {
+void vmf_convolution_pdf(benchmark::State& state) {
   const VmfMixture light(random_lobes(8, 1));
   const PhaseLobes phase = phase_lobes(state.range(1) * 0.1f);
   const VmfConvolution convolution(light, phase);
@@ -90,10 +90,10 @@ void vmf_convolved_pdf(benchmark::State& state) {
   for (auto _ : state)
     for (const Vec3& w : directions)
       benchmark::DoNotOptimize(state.range(0) ? convolution.pdf(w)
-                                              : convolved_pdf(light, phase, w));
+                                              : VmfConvolution(light, phase).pdf(w));
   state.SetItemsProcessed(state.iterations() * directions.size());
 }
-BENCHMARK(vmf_convolved_pdf)->Args({0, 4})->Args({0, 9})->Args({1, 4})->Args({1, 9});
+BENCHMARK(vmf_convolution_pdf)->Args({0, 4})->Args({0, 9})->Args({1, 4})->Args({1, 9});
 
 void vmf_stepwise_em(benchmark::State& state) {
   const auto batch = test::draw(VmfMixture(random_lobes(8, 1)), state.range(0), 3);

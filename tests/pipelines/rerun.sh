@@ -17,14 +17,15 @@ cd "$work" || exit 1
 mkdir bin
 for tool in brdf-fit photon-trace cache-train cache-reduce render image-compare chart report \
     make-cloud; do
-  printf '#!/bin/sh\nexec "%s/%s" "$@"\n' "$bin" "$tool" > "bin/$tool"
+  printf '#!/bin/sh\n[ "$LAUNCHED" ] || echo %s >> unlaunched\nexec "%s/%s" "$@"\n' \
+    "$tool" "$bin" "$tool" > "bin/$tool"
   chmod +x "bin/$tool"
   touch -d 2001-01-01 "bin/$tool"
 done
 
 pipeline=gap-room
 tiny=(SIZE=32x18 'TIMES=0.05 0.1' PHOTONS=20000 REFERENCE_SPP=4 BIN=bin QUIET=-q
-      'METHODS=bsdf product' 'BRDF_FIT_FLAGS=--elevations 8' 'REFERENCE=out/$(NAME)/reference.exr')
+      'METHODS=bsdf product' 'BRDF_FIT_FLAGS=--elevations 8')
 run() { make --no-print-directory -f "pipelines/$pipeline.mk" "${tiny[@]}" "$@" > log 2>&1; }
 
 # What the last run ran: the tools, in alphabetical order.
@@ -61,6 +62,13 @@ must_run RENDER_FLAGS="-D quote='two words'"
 expect "RENDER_FLAGS with quotes" "chart image-compare render"
 must_run
 expect "the first flags again" "chart image-compare render"
+must_run COMPARE_FLAGS=--subtract-reference-noise
+expect "other COMPARE_FLAGS" "chart image-compare"
+cp -p out/gap-room/reference.exr other.exr
+must_run REFERENCE=other.exr
+expect "another REFERENCE" "chart image-compare"
+must_run
+expect "the first reference again" "chart image-compare"
 must_run CACHE_REDUCE_FLAGS='--max-components 4'
 expect "other CACHE_REDUCE_FLAGS" "cache-reduce chart image-compare render"
 must_run PHOTONS=30000
@@ -112,6 +120,7 @@ expect "passes of camera paths" "cache-reduce cache-train chart image-compare ph
 must_run PHOTONS=auto TRAIN_FOR=0.01 TIMES=0.05 METHODS=product TRAIN_FROM=both
 expect "PHOTONS=auto from both" "cache-reduce chart image-compare render"
 run TRAIN_FROM=nowhere && { echo "FAIL gap-room: TRAIN_FROM=nowhere is taken"; ((++failures)); }
+pipeline=daylight must_run -n PHOTONS=auto
 must_run
 touch pipelines/scenes/gap-room.xml
 must_run
@@ -136,6 +145,17 @@ must_run clean
 must_run trade-off-split 'SPLITS_TRIED=1 2' STUDY_SPP=2
 [[ $(grep -c '^ *bin/photon-trace' log) == 1 ]] ||
   { echo "FAIL gap-room: a trade-off from a clean start trains more than once"; cat log; ((++failures)); }
+must_run
+
+# Every tool is launched by LAUNCH, in the studies and in training that decides itself too.
+rm unlaunched
+must_run clean
+must_run LAUNCH='env LAUNCHED=1' PHOTONS=auto TRAIN_FOR=0.01 FIRST_PHOTONS=5000 THRESHOLDS=50 \
+  STUDY_SPP=2 UNBIASED_SPP=2 all charts report reduction overhead unbiased
+[[ ! -e unlaunched ]] ||
+  { echo "FAIL gap-room: without LAUNCH ran $(sort -u unlaunched | xargs)"; ((++failures)); }
+grep -q '^1,5000,' out/gap-room/training.csv ||
+  { echo "FAIL gap-room: FIRST_PHOTONS is not what the first pass traces"; ((++failures)); }
 must_run
 
 # Stopped between the two outputs of a stage.
@@ -216,6 +236,16 @@ run_compare || { echo "FAIL compare: make failed"; cat log; ((++failures)); }
   { echo "FAIL compare: not all figures, charts and the report"; ((++failures)); }
 run_compare
 expect "a second run" ""
+
+# What COMPARE_FLAGS says holds for kitchenette too; its reference has the size of its own images.
+kitchenette() {
+  make -n --no-print-directory -f pipelines/compare.mk SCENES=kitchenette WAYLIGHT_SCENES=elsewhere \
+    COMPARE_FLAGS=--subtract-reference-noise "$@" > log 2>&1
+  grep -q "COMPARE_FLAGS='--subtract-reference-noise --resize-reference'" log
+}
+kitchenette || { echo "FAIL compare: no --resize-reference for kitchenette"; ((++failures)); }
+kitchenette SIZE=32x18 &&
+  { echo "FAIL compare: kitchenette has a reference of another size"; ((++failures)); }
 
 # The other pipelines, once and not again.
 others=(jewelry)

@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include "common/stepwise_em.h"
 #include "libguide/directional/expectation_maximization.h"
 #include "unit/directional/mixtures.h"
 
 namespace waylight {
 namespace {
 
+using test::StepwiseEm;
 using Points = std::vector<WeightedPoint>;
 
 // Fits the points in batch and as a stream, and returns both, each checked to be a valid mixture

@@ -632,6 +632,7 @@ TEST(CacheTrainOptions, NameTheFieldThatIsWrong) {
   EXPECT_NE(message([](auto& o) { o.max_cells = 0; }).find("max_cells"), std::string::npos);
   EXPECT_NE(message([](auto& o) { o.normal_spread = kNan; }).find("normal_spread"),
             std::string::npos);
+  EXPECT_EQ(message([](auto& o) { o.normal_spread = 0; }), "");  // no split by orientation
   EXPECT_NE(message([](auto& o) { o.prior.b = 0; }).find("prior.b"), std::string::npos);
 }
 

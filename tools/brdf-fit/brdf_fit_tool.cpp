@@ -1,12 +1,12 @@
 #include "tools/brdf-fit/brdf_fit_tool.h"
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "formats/atomic_file.h"
 #include "formats/brdf_file.h"
 #include "libguide/base/error.h"
+#include "libguide/base/stopwatch.h"
 #include "tools/brdf-fit/fit_report.h"
 #include "tools/common/provenance_of.h"
 
@@ -60,13 +60,12 @@ void brdf_fit(const ToolRun& run, const ToolInfo& tool, const BrdfFitArguments& 
   const SceneDescription scene =
       arguments.family.empty() ? load_scene(arguments.scene, run) : SceneDescription();
   const std::vector<BrdfCache> families = read_families(arguments.families);
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   BrdfFitResult result = arguments.family.empty()
                              ? fit_brdfs(scene, arguments.options, run.control, families)
                              : fit_family(arguments.family, arguments.options, run.control);
   run.stop_if_interrupted();
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = stopwatch.seconds();
   const Provenance provenance = provenance_of(run, tool, arguments, scene.hash);
   write_brdf(arguments.output, {provenance, std::move(result.cache)});
   if (!arguments.report.empty())

@@ -162,19 +162,29 @@ struct PhotonTally {
   }
 };
 
-Json describe_photons(const std::string& path, const ToolRun& run) {
-  PhotonReader reader(path);
-  PhotonTally tally, medium_tally, sample_tally;
+struct PhotonTallies {
+  PhotonTally photons, samples, in_media;
+};
+
+PhotonTallies tally_all(PhotonReader& reader, const ToolRun& run) {
+  PhotonTallies tallies;
   uint64_t done = 0;
   std::vector<MediumPhoton> in_media;
   for (std::vector<Photon> photons; reader.read(&photons, nullptr, &in_media);) {
     run.stop_if_interrupted();
     run.control.progress(double(done += photons.size() + in_media.size()), 0, "photons");
     for (const Photon& photon : photons)
-      (photon.from == TracedFrom::lights ? tally : sample_tally)
+      (photon.from == TracedFrom::lights ? tallies.photons : tallies.samples)
           .add(photon.path_depth, photon.power);
-    for (const MediumPhoton& photon : in_media) medium_tally.add(photon.path_depth, photon.weight);
+    for (const MediumPhoton& photon : in_media)
+      tallies.in_media.add(photon.path_depth, photon.weight);
   }
+  return tallies;
+}
+
+Json describe_photons(const std::string& path, const ToolRun& run) {
+  PhotonReader reader(path);
+  const PhotonTallies tallies = tally_all(reader, run);
   Json info = head(path, "photons");
   add_provenance(info, reader.header().provenance);
   const PhotonCounts& c = reader.counts();
@@ -188,15 +198,15 @@ Json describe_photons(const std::string& path, const ToolRun& run) {
                {"absorbed", c.absorbed},
                {"too_deep", c.too_deep},
                {"invalid", c.invalid},
-               {"depths", tally.json("power")}});
+               {"depths", tallies.photons.json("power")}});
   if (reader.header().stream.paths > 0) {
     info["paths"] = c.paths;
     info["samples"] = c.samples;
-    info["depths_of_samples"] = sample_tally.json("irradiance");
+    info["depths_of_samples"] = tallies.samples.json("irradiance");
   }
   if (reader.header().stream.media) {
     info["in_media"] = c.in_media;
-    info["depths_in_media"] = medium_tally.json("weight");
+    info["depths_in_media"] = tallies.in_media.json("weight");
   }
   return info;
 }

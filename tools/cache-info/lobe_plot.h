@@ -8,7 +8,8 @@
 namespace waylight {
 
 struct LobePlotArguments {
-  std::string target;    // index of a cell, or name or index of a material
+  // Index of a cell, X,Y,Z of a place in a medium, or name or index of a material.
+  std::string target;
   std::string output;    // picture to write
   std::string samples;   // photon file, or empty
   std::string truth;     // picture of `render --sphere`, or empty

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +9,7 @@
 #include "formats/cache_file.h"
 #include "formats/file_kind.h"
 #include "libguide/base/error.h"
+#include "libguide/base/stopwatch.h"
 #include "tools/common/provenance_of.h"
 
 namespace waylight {
@@ -63,7 +63,7 @@ Provenance reduce_file(const ToolRun& run, const ToolInfo& tool,
 
 void cache_reduce(const ToolRun& run, const ToolInfo& tool, const CacheReduceArguments& arguments) {
   arguments.options.validate();
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   CacheReduceSummary summary;
   Provenance provenance;
   switch (identify_file(arguments.input)) {
@@ -78,8 +78,7 @@ void cache_reduce(const ToolRun& run, const ToolInfo& tool, const CacheReduceArg
     default:
       fail("\"{}\": holds no mixtures; give a .brdf or a .cache file", arguments.input);
   }
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = stopwatch.seconds();
   report(run, provenance, arguments, summary, seconds);
 }
 

@@ -133,6 +133,16 @@ void report_media(const ToolRun& run, const MediumTrainSummary& s, bool merges) 
                         format_bytes(double(s.bytes))));
 }
 
+void warn_of(const ToolRun& run, const CacheTrainSummary& s) {
+  const uint64_t rejected = s.rejected + s.media.rejected;
+  if (rejected > 0)
+    run.control.warn(fmt::format("{} photons made no sense and were left out", rejected));
+  if (s.cells_with_mixture + s.media.indirect.cells_with_mixture +
+          s.media.direct.cells_with_mixture ==
+      0)
+    run.control.warn("no cell saw enough photons for a mixture");
+}
+
 void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrainSummary& s,
             bool read_again, bool merges) {
   const double photons = static_cast<double>(s.photons + s.media.photons);
@@ -146,8 +156,9 @@ void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrain
       fmt::format("{} cells, {} with a mixture of {:.1f} components and {:.0f} effective samples",
                   s.cells, s.cells_with_mixture, s.mean_components, s.mean_effective_samples));
   if (read_again)
-    run.print(fmt::format("{} mixtures of surfaces fitted again to all photons of their cells",
-                          s.mixtures_refitted));
+    run.print(
+        fmt::format("{} mixtures of surfaces fitted again to at most 512 photons of each cell",
+                    s.mixtures_refitted));
   else
     run.print("photons were read once: no mixture was fitted again");
   if (merges)
@@ -157,13 +168,7 @@ void report(const ToolRun& run, const PhotonStreamInfo& stream, const CacheTrain
       "{:.2f} % of the mixtures' mass lies outside the sphere; {} in training, peak {}",
       100 * s.lost_mass, format_bytes(double(s.bytes)), format_bytes(double(peak_memory_bytes()))));
   if (s.media.cells > 0) report_media(run, s.media, merges);
-  const uint64_t rejected = s.rejected + s.media.rejected;
-  if (rejected > 0)
-    run.control.warn(fmt::format("{} photons made no sense and were left out", rejected));
-  if (s.cells_with_mixture + s.media.indirect.cells_with_mixture +
-          s.media.direct.cells_with_mixture ==
-      0)
-    run.control.warn("no cell saw enough photons for a mixture");
+  warn_of(run, s);
 }
 
 }  // namespace

@@ -11,10 +11,11 @@ constexpr ToolInfo kTool = {
     "--photons FILE|- [--in PREVIOUS.cache] -o scene.cache",
     R"(A tree splits space, and surfaces that face different ways; each of its cells learns a Gaussian
 mixture over the directions that light comes from, by stepwise EM. The photons are read once more
-at the end, when all cells are known: each mixture is fitted again to all photons of its place, and
-gets lobes for beams that few of them carry. From the standard input, and with --once, they are read
-once. Memory grows with the cells and never with the photons. In media a tree splits space alone; its
-cells learn the fluence and von Mises-Fisher lobes of direct and of indirect light, on the way only.
+at the end, when all cells are known: each mixture is fitted again to its photons, at most 512 of
+them, and gets lobes for beams that few of them carry. From the standard input, and with --once,
+they are read once. Memory grows with the cells and never with the photons. In media a tree splits
+space alone; its cells learn the fluence and von Mises-Fisher lobes of direct and of indirect light,
+on the way only.
 
 Samples of camera paths (photon-trace --paths) teach a cell like photons, each kind by its evidence.
 

@@ -103,6 +103,13 @@ Bitmap total_variance(const ImageCompareOptions& options, const Image& image,
   return *sum;
 }
 
+std::optional<Bitmap> noise_to_subtract(const ImageCompareOptions& options, const Image& reference,
+                                        const Framing& frame) {
+  if (!options.subtract_reference_noise) return std::nullopt;
+  return frame(colors_in(reference, options.reference, kVariance), options.reference,
+               PixelQuantity::variance);
+}
+
 void write_error_image(const std::string& path, const Bitmap& image, const Bitmap& reference) {
   const std::vector<float> errors = relative_errors(image, reference);
   const Bitmap colors = false_color(errors, image.width, image.height);
@@ -158,10 +165,7 @@ void image_compare(const ToolRun& run, const ImageCompareOptions& options) {
   const Bitmap x = mean_picture(renders);
   const Bitmap ref =
       frame(colors_in(reference, options.reference, ""), options.reference, PixelQuantity::mean);
-  std::optional<Bitmap> noise;
-  if (options.subtract_reference_noise)
-    noise = frame(colors_in(reference, options.reference, kVariance), options.reference,
-                  PixelQuantity::variance);
+  const std::optional<Bitmap> noise = noise_to_subtract(options, reference, frame);
   const Bitmap* const noise_of_reference = noise ? &*noise : nullptr;
   ComparisonReport report{waylight::compare(x, ref, noise_of_reference),
                           relmse_of_each(renders, ref, noise_of_reference),

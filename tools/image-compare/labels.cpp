@@ -19,13 +19,10 @@ Json read_statistics(const std::string& path) {
   return json;
 }
 
-// The first of the keys that holds a number or a string, or null.
-Json find_value(const Json& statistics, std::initializer_list<const char*> keys) {
-  for (const char* key : keys)
-    if (const auto found = statistics.find(key);
-        found != statistics.end() && (found->is_number() || found->is_string()))
-      return *found;
-  return nullptr;
+// A number or a string, or null.
+Json find_value(const Json& statistics, const char* key) {
+  const auto found = statistics.find(key);
+  return found != statistics.end() && (found->is_number() || found->is_string()) ? *found : Json();
 }
 
 std::string as_text(const Json& value) {
@@ -34,25 +31,24 @@ std::string as_text(const Json& value) {
 
 void take_statistics(const std::string& path, ImageLabels& labels) {
   const Json statistics = read_statistics(path);
-  const auto take = [&](const char* label, std::initializer_list<const char*> keys) {
-    const Json value = find_value(statistics, keys);
+  const auto take = [&](const char* label, const char* key) {
+    const Json value = find_value(statistics, key);
     if (!value.is_null()) labels[label] = as_text(value);
   };
-  take("scene", {"scene"});
-  take("method", {"method", "mode"});
-  take("seed", {"seed"});
-  take("seconds", {"render_seconds", "seconds"});
-  take("cpu_seconds", {"cpu_seconds"});
-  take("preprocess_seconds", {"preprocess_seconds"});
-  take("spp", {"spp", "mean_spp"});
-  take("path_length", {"mean_path_length"});
-  take("memory_bytes", {"peak_memory_bytes"});
+  take("scene", "scene");
+  take("method", "mode");
+  take("seed", "seed");
+  take("seconds", "seconds");
+  take("cpu_seconds", "cpu_seconds");
+  take("spp", "spp");
+  take("path_length", "mean_path_length");
+  take("memory_bytes", "peak_memory_bytes");
 }
 
 double preprocess_seconds(const std::vector<std::string>& paths) {
   double sum = 0;
   for (const std::string& path : paths) {
-    const Json seconds = find_value(read_statistics(path), {"seconds", "total_seconds"});
+    const Json seconds = find_value(read_statistics(path), "seconds");
     if (!seconds.is_number()) fail("\"{}\": holds no number \"seconds\"", path);
     sum += seconds.get<double>();
   }

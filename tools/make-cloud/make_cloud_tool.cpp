@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "formats/volume_io.h"
+#include "libguide/base/stopwatch.h"
 #include "tools/common/provenance_of.h"
 
 namespace waylight {
@@ -54,12 +54,11 @@ std::map<std::string, std::string> metadata_of(const Provenance& provenance) {
 }  // namespace
 
 void make_cloud(const ToolRun& run, const ToolInfo& tool, const MakeCloudArguments& arguments) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const Provenance provenance = provenance_of(run, tool, arguments.options.seed);
   const VolumeGrid grid = make_cloud(arguments.options);
   write_vdb(arguments.output, grid, "density", metadata_of(provenance));
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds = stopwatch.seconds();
   report(run, provenance, arguments.output, grid, seconds);
 }
 

@@ -83,6 +83,27 @@ struct Guides {
   }
 };
 
+Provenance provenance_of_photons(const ToolRun& run, const ToolInfo& tool,
+                                 const PhotonTraceArguments& arguments, const SceneHash& scene) {
+  Provenance provenance = provenance_of(run, tool, arguments.options.seed, arguments.scene, scene);
+  for (const std::string& guide : {arguments.importance, arguments.cache})
+    if (!guide.empty()) provenance.parents.push_back(parent_of(guide));
+  return provenance;
+}
+
+PhotonStreamInfo stream_of(const Scene& scene, const PhotonTraceOptions& options,
+                           const TraceGuides& guides) {
+  const bool media =
+      scene.has_media() && options.quantity == Quantity::radiance && options.count > 0;
+  return {scene.bounds(),
+          options.count,
+          options.pass,
+          options.quantity,
+          media,
+          options.paths,
+          expected_records(scene, options, guides)};
+}
+
 }  // namespace
 
 void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArguments& arguments) {
@@ -98,20 +119,9 @@ void photon_trace(const ToolRun& run, const ToolInfo& tool, const PhotonTraceArg
         fmt::format("\"{}\": no emitter sends light into the scene: there are no photons to trace",
                     arguments.scene.path));
   const Guides guides(arguments, scene.description());
-  Provenance provenance =
-      provenance_of(run, tool, options.seed, arguments.scene, scene.description().hash);
-  for (const std::string& guide : {arguments.importance, arguments.cache})
-    if (!guide.empty()) provenance.parents.push_back(parent_of(guide));
-  const bool media =
-      scene.has_media() && options.quantity == Quantity::radiance && options.count > 0;
-  const PhotonStreamInfo stream{scene.bounds(),
-                                options.count,
-                                options.pass,
-                                options.quantity,
-                                media,
-                                options.paths,
-                                expected_records(scene, options, guides.views())};
-  PhotonWriter writer(arguments.output, {provenance, stream});
+  const Provenance provenance =
+      provenance_of_photons(run, tool, arguments, scene.description().hash);
+  PhotonWriter writer(arguments.output, {provenance, stream_of(scene, options, guides.views())});
   const PhotonTraceSummary summary = trace_photons(
       scene, options, [&](std::span<const Photon> photons) { writer.write(photons); }, run.control,
       [&](std::span<const Escape> escapes) { writer.write(escapes); }, guides.views(),

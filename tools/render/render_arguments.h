@@ -4,14 +4,15 @@
 
 namespace waylight {
 
-// The options with --size, --crop and --aov read into them, and 64 samples when nothing ends the
-// render. Throws Misuse naming the option.
+// The options with what is given as text (--size, --crop, --aov, --bsdf-share, --fluence, --sphere)
+// read into them. Where nothing ends the render, its last checkpoint does, or 64 samples. Throws
+// Misuse naming the option; what is returned is valid.
 RenderOptions complete_options(const RenderArguments& arguments);
 
 const char* mode_name(RenderMode mode);
 
-// The mode, with roulette and splitting where they are not the mode's own: the name of a line in a
-// chart.
+// The mode, with distances, directions and roulette that are not the mode's own, the view that is
+// not the camera's, and splitting: the name of a line in a chart.
 std::string method_name(const RenderOptions& options);
 
 }  // namespace waylight

@@ -139,25 +139,36 @@ void write_stats(const ToolRun& run, const Provenance& provenance, const RenderO
   run.write_stats(stats, tag);
 }
 
+// Checked against all that the render writes, with the images at checkpoints.
+SceneDescription load_scene_of(const RenderArguments& arguments, const RenderOptions& options,
+                               const ToolRun& run) {
+  SceneArguments scene = arguments.scene;
+  for (const double checkpoint : options.checkpoints)
+    for (const std::string& output : {arguments.output, arguments.png})
+      if (!output.empty()) scene.written.push_back(tagged(output, checkpoint_tag(checkpoint)));
+  return load_scene(scene, run);
+}
+
+std::unique_ptr<Scene> build_lit_scene(SceneDescription description,
+                                       const SceneArguments& arguments, const ToolRun& run) {
+  std::unique_ptr<Scene> scene = build_scene(std::move(description), arguments, run);
+  if (!scene->has_lights())
+    run.control.warn(fmt::format(
+        "\"{}\": no emitter sends light into the scene; the image will be black", arguments.path));
+  return scene;
+}
+
 }  // namespace
 
 void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arguments) {
   const RenderOptions options = complete_options(arguments);
   if (!arguments.segments.empty()) check_writable(arguments.segments);
-  SceneArguments scene_arguments = arguments.scene;
-  for (const double checkpoint : options.checkpoints)
-    for (const std::string& output : {arguments.output, arguments.png})
-      if (!output.empty())
-        scene_arguments.written.push_back(tagged(output, checkpoint_tag(checkpoint)));
-  SceneDescription description = load_scene(scene_arguments, run);
+  SceneDescription description = load_scene_of(arguments, options, run);
   const LoadedCaches loaded(arguments, options, description);
   Provenance provenance = provenance_of(run, tool, options.seed, arguments.scene, description.hash);
   provenance.parents = loaded.parents;
-  const std::unique_ptr<Scene> scene = build_scene(std::move(description), arguments.scene, run);
-  if (!scene->has_lights())
-    run.control.warn(
-        fmt::format("\"{}\": no emitter sends light into the scene; the image will be black",
-                    arguments.scene.path));
+  const std::unique_ptr<Scene> scene =
+      build_lit_scene(std::move(description), arguments.scene, run);
   RenderSummary summary;
   // Pictures of the fluence show the mean radiance.
   const float exposure = options.fluence ? -std::log2(4 * kPi) : 0.0f;

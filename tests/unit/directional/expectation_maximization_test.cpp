@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/stepwise_em.h"
 #include "libguide/directional/em_step.h"
 #include "libguide/directional/mixture_check.h"
 #include "unit/directional/mixtures.h"
@@ -10,6 +11,7 @@ namespace waylight {
 namespace {
 
 using test::component;
+using test::StepwiseEm;
 
 std::vector<GaussianComponent> known() {
   return {component(0.5f, {-0.4f, 0.1f}, 0.1f, 0.05f, 0.5f),

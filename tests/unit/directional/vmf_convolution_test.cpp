@@ -51,6 +51,10 @@ double convolved(const Series& a, const Series& b, double t) {
   return sum / (4 * std::numbers::pi);
 }
 
+float convolved_pdf(const VmfMixture& light, const PhaseLobes& phase, const Vec3& w) {
+  return VmfConvolution(light, phase).pdf(w);
+}
+
 VmfMixture light_about_z(float kappa) {
   return VmfMixture(std::array{VmfComponent{1, Vec3::UnitZ(), kappa}});
 }
