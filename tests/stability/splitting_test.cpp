@@ -99,7 +99,7 @@ TEST_F(SlowSplitting, CachesAHundredTimesOffEitherWayOrZeroDoNotBias) {
   for (size_t i = 0; i < wrong.guide.cells.size(); ++i)
     wrong.guide.cells[i].irradiance *= kFactors[i % kFactors.size()];
   for (const PixelEstimateMode mode : {PixelEstimateMode::cache, PixelEstimateMode::preview}) {
-    RenderOptions options = split_options(64);
+    RenderOptions options = split_options(256);  // 64 do not know their variance
     options.pixel_estimate = mode;
     const RenderSummary summary = expect_mean_of_path_tracing(wrong, options);
     EXPECT_GT(summary.killed_share, 0.1);
