@@ -24,7 +24,7 @@ inline Fresnel fresnel_dielectric(float cos_i, float eta) {
 inline Color fresnel_conductor(float cos_i, const Color& eta, const Color& k) {
   const float cos2 = sqr(cos_i), sin2 = 1 - cos2;
   const Color t = eta.square() - k.square() - sin2;
-  // Above 0, as which an index of 0 would divide by it.
+  // Not 0, by which an index of 0 would divide at normal incidence.
   const Color a2_b2 = (t.square() + 4 * eta.square() * k.square()).sqrt().max(1e-12f);
   const Color a = (0.5f * (a2_b2 + t)).max(0).sqrt();
   const Color sum = a2_b2 + cos2, cross = 2 * cos_i * a;

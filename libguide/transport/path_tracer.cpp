@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kUnlimitedDepth = 1 << 20;  // bound of "no limit": roulette ends paths long before
 constexpr int kLongPath = 100;            // edges; beyond, roulette is by throughput as well
-constexpr int kMaxUnjudged = 16;          // mirrors and panes after which it is so too
+constexpr int kMaxUnjudged = 16;          // delta scatterings after which it is so too
 constexpr float kMinSurvival = 0.05f;
 constexpr uint32_t kNoCell = ~0u;
 

@@ -3,7 +3,6 @@
 #include "tools/cache-info/cache_info_tool.h"
 
 namespace waylight {
-
 namespace {
 
 // What is drawn beside the lobe, and how.
