@@ -90,7 +90,7 @@ void FlightBins::look_up(const FlightSpace& space, const Cells& cells) {
     direct[i] = from_emitters;
   }
   if (count == 0) return;
-  const MediumGuide& last = space.guides.guide(space.index, cells[count - 1]);
+  const MediumGuide& last = space.guides.at(space.index, space.ray(std::min(space.t_max, kFar)));
   end_radiance = last.known() ? last.incident(space.ray.direction, space.with_direct) : scattered;
 }
 

@@ -33,15 +33,10 @@ MediumGuides::PhaseGuides::PhaseGuides(const MediumCacheView& cache, float mean_
     : lobes(phase_lobes(mean_cosine)), bins(mean_cosine) {
   guides.reserve(cache.cells.size());
   for (const MediumCell& cell : cache.cells) guides.emplace_back(cache, cell, lobes);
-  scattered.resize(guides.size() * bins.count());
-  parallel_for(guides.size(), [&](size_t i) {
-    const std::vector<float> radiance = guides[i].scattered(lobes, bins);
-    for (int bin = 0; bin < bins.count(); ++bin) scattered[bin * guides.size() + i] = radiance[bin];
-  });
 }
 
 MediumGuides::MediumGuides(const MediumCacheView& cache, std::span<const Medium> media)
-    : nodes_(cache.nodes), finder_(cache.nodes) {
+    : finder_(cache.nodes) {
   std::vector<float> cosines;
   for (const Medium& medium : media) {
     const float g = mean_cosine(medium.phase);
@@ -51,9 +46,34 @@ MediumGuides::MediumGuides(const MediumCacheView& cache, std::span<const Medium>
     cosines.push_back(g);
     phases_.emplace_back(cache, g);
   }
-  if (phases_.empty()) return;
-  for (const MediumGuide& guide : phases_.front().guides)
-    direct_shares_.push_back(guide.direct_share());
+  if (phases_.empty() || cache.nodes.empty()) return;
+  FlightCells cells = merge_for_flights(cache.nodes, scattered_light());
+  flight_nodes_ = std::move(cells.nodes);
+  set_tables(cells.light);
+}
+
+// Of each cell, the tables of all phases one after the other.
+std::vector<ScatteredLight> MediumGuides::scattered_light() const {
+  std::vector<ScatteredLight> light(phases_.front().guides.size());
+  parallel_for(light.size(), [&](size_t i) {
+    light[i].direct_share = phases_.front().guides[i].direct_share();
+    for (const PhaseGuides& phase : phases_) {
+      const std::vector<float> table = phase.guides[i].scattered(phase.lobes, phase.bins);
+      light[i].radiance.insert(light[i].radiance.end(), table.begin(), table.end());
+    }
+  });
+  return light;
+}
+
+void MediumGuides::set_tables(const std::vector<ScatteredLight>& light) {
+  for (const ScatteredLight& cell : light) direct_shares_.push_back(cell.direct_share);
+  size_t first = 0;
+  for (PhaseGuides& phase : phases_) {
+    for (int bin = 0; bin < phase.bins.count(); ++bin)
+      for (const ScatteredLight& cell : light)
+        phase.scattered.push_back(cell.radiance[first + bin]);
+    first += phase.bins.count();
+  }
 }
 
 }  // namespace waylight

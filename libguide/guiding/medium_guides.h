@@ -8,6 +8,7 @@
 
 #include "libguide/cache/medium_cache_view.h"
 #include "libguide/directional/vmf_convolution.h"
+#include "libguide/guiding/flight_cells.h"
 #include "libguide/math/octahedral.h"
 #include "libguide/medium/medium.h"
 #include "libguide/spatial/leaf_finder.h"
@@ -86,22 +87,25 @@ class MediumGuides {
   // cache must outlive this; media: of the scene.
   MediumGuides(const MediumCacheView& cache, std::span<const Medium> media);
 
-  bool empty() const { return nodes_.empty() || phases_.empty(); }
+  bool empty() const { return flight_nodes_.empty(); }
   const PhaseLobes& phase(int medium) const { return phases_[phase_of_medium_[medium]].lobes; }
   const ScatteredBins& bins(int medium) const { return phases_[phase_of_medium_[medium]].bins; }
   const MediumGuide& at(int medium, const Vec3& p) const {
     return guide(medium, finder_.find(p, Vec3::UnitZ()));
   }
-  LeafWalk walk(const Ray& ray, float t_max) const { return LeafWalk(nodes_, ray, t_max); }
   const MediumGuide& guide(int medium, uint32_t cell) const {
     return phases_[phase_of_medium_[medium]].guides[cell];
   }
-  // int f(w, w') L(x, w') dw' of all light, `bin` that of w; negative where the cell is not known.
-  float scattered(int medium, uint32_t cell, int bin) const {
-    const PhaseGuides& phase = phases_[phase_of_medium_[medium]];
-    return phase.scattered[bin * phase.guides.size() + cell];
+
+  // The cells along a ray, as flights see them: see FlightCells.
+  LeafWalk walk(const Ray& ray, float t_max) const { return LeafWalk(flight_nodes_, ray, t_max); }
+  // Of these, int f(w, w') L(x, w') dw' of all light, `bin` that of w; negative where the cell is
+  // not known.
+  float scattered(int medium, uint32_t flight_cell, int bin) const {
+    return phases_[phase_of_medium_[medium]].scattered[bin * direct_shares_.size() + flight_cell];
   }
-  float direct_share(uint32_t cell) const { return direct_shares_[cell]; }
+  float direct_share(uint32_t flight_cell) const { return direct_shares_[flight_cell]; }
+  size_t flight_cells() const { return direct_shares_.size(); }
 
  private:
   // The cells for media of one phase function.
@@ -114,11 +118,14 @@ class MediumGuides {
     PhaseGuides(const MediumCacheView& cache, float mean_cosine);
   };
 
-  std::span<const CacheNode> nodes_;
+  std::vector<ScatteredLight> scattered_light() const;
+  void set_tables(const std::vector<ScatteredLight>& light);
+
   LeafFinder finder_;
   std::vector<int> phase_of_medium_;
   std::vector<PhaseGuides> phases_;
-  std::vector<float> direct_shares_;  // of the cells, apart from their guides, which are large
+  std::vector<CacheNode> flight_nodes_;
+  std::vector<float> direct_shares_;  // by flight cell
 };
 
 }  // namespace waylight

@@ -67,9 +67,7 @@ class Sweep {
     guided_.offer(ending, ending.guided, random_.next());
   }
   float end_radiance() {
-    while (cells_.next(cell_)) {
-    }
-    const MediumGuide& guide = space_.guides.guide(space_.index, cell_.cell);
+    const MediumGuide& guide = space_.guides.at(space_.index, space_.ray(t_max_));
     return guide.known() ? guide.incident(space_.ray.direction, space_.with_direct) : scattered_;
   }
   bool goes_on() {

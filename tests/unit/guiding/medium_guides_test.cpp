@@ -26,21 +26,39 @@ TEST(ScatteredBins, EachHoldsItsCentreAndDirectionsNearIt) {
   }
 }
 
+// As the flight cell at a point has it; negative where that is not known.
+float scattered_at(const MediumGuides& guides, float x, int bin) {
+  LeafSpan span;
+  LeafWalk walk = guides.walk({Vec3(x, 0, 0), Vec3::UnitY()}, 1);
+  EXPECT_TRUE(walk.next(span));
+  return guides.scattered(0, span.cell, bin);
+}
+
+// Those of cells that are alike hold the mean of both.
 TEST(MediumGuides, TablesHoldWhatTheCellsScatter) {
   const testing::FlightFixture fixture(testing::flight_cases()[0]);
   const MediumGuides& guides = fixture.guides;
-  int known = 0;
-  for (uint32_t cell = 0; cell < fixture.cache.cells.size(); ++cell)
-    for (int i = 0; i < guides.bins(0).count(); ++i) {
-      const MediumGuide& guide = guides.guide(0, cell);
-      const float scattered = guides.scattered(0, cell, i);
-      EXPECT_EQ(scattered >= 0, guide.known());
-      if (!guide.known()) continue;
-      // Light straight from emitters comes on top.
-      EXPECT_GE(scattered, guide.scattered_indirect(guides.bins(0).centre(i)));
-      ++known;
-    }
-  EXPECT_GT(known, 0);
+  EXPECT_EQ(guides.flight_cells(), 2u);  // light straight from emitters makes two of three alike
+  for (int i = 0; i < guides.bins(0).count(); ++i) {
+    const Vec3 w = guides.bins(0).centre(i);
+    EXPECT_LT(scattered_at(guides, 0.1f, i), 0);
+    EXPECT_EQ(scattered_at(guides, 0.4f, i), scattered_at(guides, 0.8f, i));
+    const float indirect =
+        (guides.guide(0, 1).scattered_indirect(w) + guides.guide(0, 2).scattered_indirect(w)) / 2;
+    EXPECT_GE(scattered_at(guides, 0.4f, i), indirect);
+  }
+}
+
+TEST(MediumGuides, TablesOfCellsThatScatterOtherLightAreTheirOwn) {
+  testing::FlightFixture fixture(testing::flight_cases()[0]);
+  for (MediumCell& cell : fixture.cache.cells) cell.direct = {};
+  const MediumGuides guides(MediumCacheView(fixture.cache), fixture.media);
+  ASSERT_EQ(guides.flight_cells(), 3u);
+  for (int i = 0; i < guides.bins(0).count(); ++i) {
+    const Vec3 w = guides.bins(0).centre(i);
+    EXPECT_EQ(scattered_at(guides, 0.4f, i), guides.guide(0, 1).scattered_indirect(w));
+    EXPECT_EQ(scattered_at(guides, 0.8f, i), guides.guide(0, 2).scattered_indirect(w));
+  }
 }
 
 }  // namespace
