@@ -31,12 +31,15 @@ std::string check_fit(const MaterialFit& fit, size_t entries) {
     return fmt::format("layout {} is unknown", static_cast<int>(fit.layout));
   std::string fault = check_series(fit.first_entry, fit.entry_count, entries);
   float last = 0;
+  uint64_t sum = 0;
   for (size_t i = 0; i < fit.widths.size() && fault.empty(); ++i) {
     const WidthSeries& s = fit.widths[i];
     if (!(s.width > last && std::isfinite(s.width))) return "widths do not ascend";
     last = s.width;
     fault = check_series(s.first_entry, s.entry_count, entries);
+    sum += s.entry_count;
   }
+  if (fault.empty() && sum > entries) return "its widths share entries";
   return fault;
 }
 

@@ -1,5 +1,7 @@
 #include "formats/brdf_file.h"
 
+#include <fmt/format.h>
+
 #include "formats/brdf_check.h"
 #include "formats/brdf_generated.h"
 #include "formats/file_bytes.h"
@@ -58,10 +60,16 @@ std::vector<MaterialFit> materials_of(const fbs::BrdfCache& root, FlatStrings& s
                                       const std::string& path) {
   std::vector<MaterialFit> fits;
   if (!root.materials()) return fits;
-  for (const fbs::MaterialFit* m : *root.materials())
+  // Tables may be shared, and widths are copied for each that names them.
+  size_t widths = 0;
+  const size_t most = root.entries() ? root.entries()->size() : 0;
+  for (const fbs::MaterialFit* m : *root.materials()) {
+    if (m->widths() && (widths += m->widths()->size()) > most)
+      fail_damaged(path, fmt::format("materials have more widths than there are {} entries", most));
     fits.push_back({m->material(), strings(m->name()), strings(m->kind()), m->textured(),
                     m->first_entry(), m->entry_count(), static_cast<EntryLayout>(m->layout()),
                     copy_of(records_of<WidthSeries>(m->widths(), path))});
+  }
   return fits;
 }
 

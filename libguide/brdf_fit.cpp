@@ -171,7 +171,7 @@ BrdfFitResult assemble(const SceneDescription& scene, const FitPlan& plan,
 }  // namespace
 
 void BrdfFitOptions::validate() const {
-  require(elevations >= 1 && elevations <= 4096, "--elevations {}: must be within 1..4096",
+  require(elevations >= 2 && elevations <= 4096, "--elevations {}: must be within 2..4096",
           elevations);
   require(directions >= 1 && directions <= 65536, "--directions {}: must be within 1..65536",
           directions);

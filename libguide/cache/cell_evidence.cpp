@@ -1,6 +1,7 @@
 #include "libguide/cache/cell_evidence.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "libguide/directional/em_batch.h"
 
@@ -13,14 +14,19 @@ constexpr float kOwnMeanSamples = 32;
 // However little of the light one kind has found, what it found is there.
 constexpr double kMinBalance = 1e-3;
 
+float to_float(double v) {
+  return static_cast<float>(std::min<double>(v, std::numeric_limits<float>::max()));
+}
+
 double effective(double sum, double sum2) { return sum2 > 0 ? sum * sum / sum2 : 0; }
 
 }  // namespace
 
 CellEvidence::CellEvidence(const CacheCell& cell, const CellTraining& training) {
-  sums_.light_all = sums_.light_guided = training.flux;
+  sums_.light_all = training.flux;
+  sums_.light_guided = std::min(training.flux, training.weight_sum);
   if (cell.effective_samples > 0)
-    sums_.light_guided2 = training.flux * training.flux / cell.effective_samples;
+    sums_.light_guided2 = sums_.light_guided * sums_.light_guided / cell.effective_samples;
 }
 
 // Samples are cut at kMaxTrainingWeight times the mean of those that found light, as in the
@@ -69,11 +75,11 @@ float CellEvidence::factor(TracedFrom from) const {
 }
 
 float CellEvidence::irradiance(double by_photons, bool with_photons) const {
-  if (sums_.camera_looks <= 0) return static_cast<float>(by_photons);
+  if (sums_.camera_looks <= 0) return to_float(by_photons);
   const double n = with_photons ? light_samples() : 0, m = camera_samples();
   const double by_camera = sums_.camera_all / sums_.camera_looks;
-  if (n + m <= 0) return static_cast<float>(with_photons ? by_photons : by_camera);
-  return static_cast<float>((n * by_photons + m * by_camera) / (n + m));
+  if (n + m <= 0) return to_float(with_photons ? by_photons : by_camera);
+  return to_float((n * by_photons + m * by_camera) / (n + m));
 }
 
 CellEvidence CellEvidence::share(double share) const {

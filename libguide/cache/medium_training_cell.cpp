@@ -66,9 +66,10 @@ MediumTrainingCell MediumTrainingCell::child(const CellSplit& split, bool upper,
                                              const MediumCellOptions& options) const {
   MediumTrainingCell child(box_);
   (upper ? child.box_.min : child.box_.max)[split.axis] = split.value;
+  child.training_.position_mean = training_.position_mean;  // until it has photons
   inherit_fluence(child, now, options.min_extent);
-  child.indirect_.inherit_as_child(indirect_, options.indirect);
-  child.direct_.inherit_as_child(direct_, options.direct);
+  child.indirect_.inherit_as_child(indirect_, upper, options.indirect);
+  child.direct_.inherit_as_child(direct_, upper, options.direct);
   return child;
 }
 
@@ -115,10 +116,9 @@ double MediumTrainingCell::volume(float min_extent) const {
   return std::max(medium_volume(training_, box_), least);
 }
 
-float MediumTrainingCell::fluence(const TrainingLight& light, double now, float min_extent) const {
+double MediumTrainingCell::fluence(const TrainingLight& light, double now, float min_extent) const {
   const double spread = exposure(now, min_extent);
-  const double limit = std::numeric_limits<float>::max();
-  return spread > 0 ? static_cast<float>(std::min(light.training().flux / spread, limit)) : 0.0f;
+  return spread > 0 ? light.training().flux / spread : 0;
 }
 
 // Of the cell's own photons, shared out as those that the mixtures saw, their parent's among them.

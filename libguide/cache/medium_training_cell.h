@@ -60,7 +60,7 @@ class MediumTrainingCell {
   // Effective photons behind the fluence of one kind of light, what was inherited included.
   double fluence_samples(const TrainingLight& light) const;
   // Weight per volume and photon of the stream, with a few photons' worth of what its parent knew.
-  float fluence(const TrainingLight& light, double now, float min_extent) const;
+  double fluence(const TrainingLight& light, double now, float min_extent) const;
 
   const Vec3& centre() const { return training_.position_mean; }
   // When the cell was made, in photons of the whole training.

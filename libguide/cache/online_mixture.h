@@ -89,8 +89,8 @@ class OnlineMixture {
   // Takes over a mixture; `share` of its evidence, in (0, 1], comes with it.
   void inherit(const OnlineMixture& from, float share);
   // The same as one of the children of a cell that is split: the light is nearly the same, and new
-  // photons soon outweigh the old.
-  void inherit_as_child(const OnlineMixture& parent, const Options& options);
+  // photons soon outweigh the old. Of the photons that wait each child takes every other one.
+  void inherit_as_child(const OnlineMixture& parent, bool upper, const Options& options);
   void forget();
   // Adds the evidence of a mixture that learned from photons of the same light.
   void add_evidence(const OnlineMixture& other);
@@ -148,6 +148,8 @@ size_t OnlineMixture<Lobes>::learn(std::span<Point> batch, const Options& option
     sum += point.weight;
     sum2 += double{point.weight} * point.weight;
   }
+  pending_count_ = 0;
+  if (!(sum2 > 0)) return capped;  // too dark for their weights to be told from zero
   const float effective_samples = static_cast<float>(sum * sum / sum2);
   if (training_.step > 0)
     step(batch, effective_samples, options);
@@ -158,7 +160,6 @@ size_t OnlineMixture<Lobes>::learn(std::span<Point> batch, const Options& option
   training_.weight_sum += sum;
   training_.weight_sum2 += sum2;
   weigh_evidence();
-  pending_count_ = 0;
   return capped;
 }
 
@@ -223,14 +224,15 @@ void OnlineMixture<Lobes>::inherit(const OnlineMixture& from, float share) {
 }
 
 template <typename Lobes>
-void OnlineMixture<Lobes>::inherit_as_child(const OnlineMixture& parent, const Options& options) {
+void OnlineMixture<Lobes>::inherit_as_child(const OnlineMixture& parent, bool upper,
+                                            const Options& options) {
   inherit(parent, 0.5f);
   record_.component_count =
       static_cast<uint32_t>(Lobes::grow(components_, statistics_, parent.record_.component_count,
                                         components_for(parent.training_.samples, options)));
   carried_over_ = parent.carried_over_;
-  pending_ = parent.pending_;
-  pending_count_ = parent.pending_count_;
+  for (int i = upper; i < parent.pending_count_; i += 2)
+    pending_[pending_count_++] = parent.pending_[i];
 }
 
 template <typename Lobes>

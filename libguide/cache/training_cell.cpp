@@ -129,7 +129,7 @@ size_t TrainingCell::flush(const CellTrainingOptions& options) {
 }
 
 bool TrainingCell::guides(const Photon& photon, const CellTrainingOptions& options) const {
-  if (drops(photon, options) || is_black(photon.power)) return false;
+  if (drops(photon, options) || !(luminance(photon.power) > 0)) return false;
   return training_.step == 0 || photon.normal.dot(record_.normal) >= kMinNormalCosine;
 }
 
@@ -193,7 +193,7 @@ void TrainingCell::unite(const TrainingCell& sibling, const CellReach& reach, do
   inherited_ = extent();
   inherited_.extend(sibling.extent());
   own_ = {};
-  united_ = reach;
+  made_with_ = reach;
   add_moments(training_, sibling.training_);
   training_.inherited_area = static_cast<float>(both);
   training_.flux =
@@ -210,7 +210,7 @@ void TrainingCell::take_mixture(std::span<const GaussianComponent> mixture) {
 double TrainingCell::irradiance_samples() const {
   const double share =
       record_.photon_count > 0 ? record_.effective_samples / record_.photon_count : 1;
-  return (training_.count + kInheritedPhotons) * std::min(share, 1.0) + evidence_.samples();
+  return (training_.count + kInheritedPhotons) * std::min(share, 1.0);
 }
 
 std::span<WeightedPoint> TrainingCell::batch_on_disk(Batch& batch) const {
@@ -225,6 +225,7 @@ TrainingCell TrainingCell::child(const CellSplit& split, bool upper, double now,
                                  const CellTrainingOptions& options) const {
   TrainingCell child;
   child.record_.normal = record_.normal;
+  child.training_.position_mean = training_.position_mean;  // until it has photons
   child.training_.born = now;
   child.training_.inherited_area = static_cast<float>(std::max(photon_area(training_), min_area));
   child.inherited_ = extent();
@@ -232,7 +233,7 @@ TrainingCell TrainingCell::child(const CellSplit& split, bool upper, double now,
   child.inherited_ = half_of(extent(), split, upper);
   inherit_irradiance(child.training_, now, min_area);
   child.evidence_ = evidence_.share(std::min(0.5, kInheritedPhotons / training_.count));
-  child.inherit_as_child(*this, options);
+  child.inherit_as_child(*this, upper, options);
   return child;
 }
 
@@ -244,12 +245,13 @@ Bounds TrainingCell::extent() const {
 // Where most photons of a cell lie in front of a wall and more than two stray ones behind it, their
 // box goes through the wall, but their standard deviations hardly do.
 CellReach TrainingCell::reach() const {
-  if (united_) return *united_;
+  const bool by_own = own_.count() >= kOwnExtentPhotons;
+  if (made_with_ && !by_own) return *made_with_;
   const Bounds box = extent();
   if (box.empty()) return {};
   const Vec3 room = Vec3::Constant(kRoom * box.radius());
   CellReach reach{box.min - room, box.max + room};
-  if (own_.count() < kOwnExtentPhotons) return reach;
+  if (!by_own) return reach;
   const Vec3 spread = kDeviations * (training_.position_m2 / training_.count).cwiseSqrt() +
                       Vec3::Constant(kThickness * box.radius());
   reach.min = reach.min.cwiseMax(training_.position_mean - spread);
@@ -283,10 +285,9 @@ double TrainingCell::area(double min_area) const {
   return std::max(own ? photon_area(training_) : double{training_.inherited_area}, min_area);
 }
 
-float TrainingCell::photon_irradiance(double now, double min_area) const {
+double TrainingCell::photon_irradiance(double now, double min_area) const {
   const double spread = exposure(now, min_area);
-  const double limit = std::numeric_limits<float>::max();
-  return spread > 0 ? static_cast<float>(std::min(training_.flux / spread, limit)) : 0.0f;
+  return spread > 0 ? training_.flux / spread : 0;
 }
 
 void TrainingCell::balance_sources(double now, double min_area, double photons_per_particle) {

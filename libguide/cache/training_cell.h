@@ -54,7 +54,8 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
                const CellEvidence& evidence)
       : OnlineMixture(cell, training, components, statistics),
         evidence_(evidence),
-        inherited_{reach.min, reach.max} {}
+        inherited_{reach.min, reach.max},
+        made_with_(reach) {}
 
   // The photons of this cell in one block: block[indices[i]] in that order. Returns how many
   // weighed too much.
@@ -125,7 +126,7 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   void locate(std::span<const Photon> block, std::span<const uint32_t> indices, float emitted,
               const CellTrainingOptions& options);
   bool guides(const Photon& photon, const CellTrainingOptions& options) const;
-  float photon_irradiance(double now, double min_area) const;
+  double photon_irradiance(double now, double min_area) const;
   size_t update(const CellTrainingOptions& options);
   bool on_other_side() const;
   void turn_to_photons();
@@ -137,7 +138,8 @@ class TrainingCell : private OnlineMixture<GaussianLobes> {
   CellEvidence evidence_;
   PhotonExtent own_;  // of the photons since the cell was made, in this training
   Bounds inherited_ = {Vec3::Constant(-kInfinity), Vec3::Constant(kInfinity)};
-  std::optional<CellReach> united_;  // the reach of a cell that was merged
+  // The reach of a cell that was merged, or trained before, until its own photons tell.
+  std::optional<CellReach> made_with_;
 };
 
 }  // namespace waylight

@@ -137,7 +137,7 @@ size_t run_tasks(std::span<const Task> tasks, size_t before, const RunControl& c
     });
     if (control.stopped()) break;
     done += count;
-    control.progress(double(before + done), 0, "fits");
+    control.progress(double(before + done), 0, "fits and tests");
   }
   return done;
 }

@@ -88,6 +88,7 @@ Json describe_brdf(const std::string& path) {
 // What guiding needs of a cache, in the file and in memory alike; training has more.
 double guide_bytes(const GuideCache& cache) {
   return double(cache.nodes.size() * sizeof(CacheNode) + cache.cells.size() * sizeof(CacheCell) +
+                cache.reaches.size() * sizeof(CellReach) +
                 cache.components.size() * sizeof(GaussianComponent));
 }
 

@@ -24,7 +24,7 @@ LightPictures pictures_of(std::span<const VmfComponent> lobes, int size) {
   const VmfMixture mixture(lobes);
   LightPictures pictures{DiskPicture(size), DiskPicture(size)};
   pictures.mixture.fill(
-      [&](const Vec2& y) { return mixture.pdf(disk_to_direction(y)) / kSteradianPerDiskArea; });
+      [&](const Vec2& y) { return mixture.pdf(disk_to_direction(y)) * kSteradianPerDiskArea; });
   return pictures;
 }
 

@@ -30,10 +30,12 @@ void declare(CLI::App& app, CacheReduceArguments& arguments) {
       ->required();
   as_output(app.add_option("-o,--output", arguments.output, "File to write, of the same kind"))
       ->required();
-  app.add_option("--max-cost", arguments.options.max_cost,
-                 "Percent of the cost of collapsing a mixture to one component");
+  CLI::Option* max_cost =
+      app.add_option("--max-cost", arguments.options.max_cost,
+                     "Percent of the cost of collapsing a mixture to one component");
   app.add_flag("--auto", arguments.options.by_evidence,
-               "Of a cache, merge what its photons cannot tell apart, instead; not of fits");
+               "Of a cache, merge what its photons cannot tell apart, instead; not of fits")
+      ->excludes(max_cost);
   app.add_option("--max-components", arguments.options.max_components,
                  "Merge on until a mixture has no more than these")
       ->check(CLI::Range(1, 8));

@@ -75,6 +75,14 @@ TEST(TrainingTree, CellsWithoutMixtureInheritFromTheNearestRelative) {
   EXPECT_EQ(lent.cells[0].effective_samples, 100);
 }
 
+// Wherever the origin is.
+TEST(TrainingTree, CellsThatSawNothingLieWhereTheirParentsPhotonsDo) {
+  GuideCache cache = row_of_cells(std::vector<Vec3>{Vec3::UnitZ()});
+  TrainingTree tree(cache);
+  const TrainingCell child = tree[0].child({0, 0.5f}, true, 1000, 1e-6, {});
+  EXPECT_EQ(child.centre(), Vec3(0.5f, 0, 0));
+}
+
 TEST(TrainingTree, NothingIsInheritedFromSurfacesThatFaceAway) {
   const std::vector<Vec3> normals = {Vec3::UnitZ(), -Vec3::UnitZ(), Vec3::UnitX()};
   GuideCache cache = row_of_cells(normals);
