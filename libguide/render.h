@@ -27,7 +27,7 @@ inline bool needs_fits(RenderMode mode) {
 }
 
 // What part of the directions is left to BSDF sampling where there is a guide. learned: per cell,
-// by a small render before (transport/share_pilot.h). automatic: learned in mode illumination,
+// by a small render before (transport/choice_pilot.h). automatic: learned in mode illumination,
 // whose guide knows nothing of the BSDF; 0.3 in product and mixture, where learning cost more time
 // than it gained on two measured interiors; one half in ris.
 enum class ShareRule { automatic, fixed, learned };
@@ -116,7 +116,7 @@ struct RenderSummary {
 using CheckpointSink = std::function<void(double checkpoint, const Image&, const RenderSummary&)>;
 
 // Channels R, G, B and those of `aovs`. The same bytes for equal inputs at any thread count, unless
-// `time` ends the render.
+// `time` is given.
 Image render(const Scene& scene, const RenderCaches& caches, const RenderOptions& options,
              RenderSummary* summary, const RunControl& control,
              const CheckpointSink& on_checkpoint = {});

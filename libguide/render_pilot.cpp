@@ -72,8 +72,8 @@ bool begins_by_throughput(const Scene& scene, const GuidingCaches& caches,
          has_media(scene, false);
 }
 
-// What the options leave open, and the caches make possible. A short pilot gets
-// to the first of these only.
+// What the options leave open, and the caches make possible. A short pilot gets to the first of
+// these only.
 std::vector<Alternative> alternatives(const Scene& scene, const GuidingCaches& caches,
                                       const RenderOptions& options, const AutoDecision& cells) {
   const bool chosen = cells.cells_bsdf + cells.cells_illumination + cells.cells_product > 0;
@@ -237,7 +237,10 @@ PathTracerOptions choose_method(const Scene& scene, const SensorDescription& sen
                                 AutoDecision* decision) {
   PathTracerOptions everything = tracer_options(scene, options);
   if (!guiding.guided() && guiding.media().empty()) return plain(options, everything);
-  if (!guiding.has_fits()) everything.directions.guide = DirectionGuide::illumination;
+  if (!guiding.has_fits()) {
+    everything.directions.guide = DirectionGuide::illumination;
+    everything.directions.bsdf_share = default_share(RenderMode::illumination);
+  }
   if (begins_by_throughput(scene, guiding, options)) kRoulette.apply(everything);
   const MethodChoice pilot(options, sensor, tracer, stop);
   const bool rare = guiding.media().empty() && pilot.guided_share(everything) < kRarelyGuided;

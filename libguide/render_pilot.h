@@ -15,9 +15,9 @@ namespace waylight {
 // and distances in media, guided distances in grids, roulette by throughput, or guided in scenes
 // with grids, where it begins by throughput. What does by three standard errors of the comparison
 // is taken, the best of each decision, all together; at last comes plain path tracing, if it is
-// better than any of these, by two where the comparison is vague, and wherever it is not surely
-// worse if hardly a scattering has a guide. Only what the options leave open is asked. The choices
-// of the cells are left in `guiding`.
+// better than any of these, by three standard errors where the comparison is vague, and wherever it
+// is not surely worse if hardly a scattering has a guide. Only what the options leave open is
+// asked. The choices of the cells are left in `guiding`.
 PathTracerOptions choose_method(const Scene& scene, const SensorDescription& sensor,
                                 const PathTracer& tracer, GuidingCaches& guiding,
                                 const RenderOptions& options, const std::function<bool()>& stop,

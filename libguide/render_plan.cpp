@@ -138,8 +138,25 @@ void check_paths(const RenderOptions& o) {
           "--weight-window must be in [1, {}], not {}", WeightWindow::kMaxRatio, o.weight_window);
   require(o.split >= 0 && o.split <= kMaxSplit, "--split must be in [0, {}], not {}", kMaxSplit,
           o.split);
-  require(o.split <= 1 || roulette_of(o) == Roulette::guided,
-          "--split needs guided roulette: --rr guided, or a mode other than bsdf");
+}
+
+// What has no effect is refused: it would be believed to have one.
+void check_effects(const RenderOptions& o) {
+  const RenderOptions defaults;
+  const bool guided = roulette_of(o) == Roulette::guided;
+  const auto needs_roulette = [&](bool is_default, const char* option) {
+    require(is_default || guided,
+            "{} needs guided roulette: --rr guided, or a mode other than bsdf", option);
+  };
+  needs_roulette(o.split <= 1, "--split");
+  needs_roulette(o.weight_window == defaults.weight_window, "--weight-window");
+  needs_roulette(o.pixel_estimate == defaults.pixel_estimate, "--pixel-estimate preview");
+  require(o.mode == RenderMode::ris || o.candidates == defaults.candidates,
+          "--candidates are those of --mode ris");
+  require(o.mode != RenderMode::bsdf || o.share_rule == ShareRule::automatic,
+          "--bsdf-share is for modes that guide: --mode bsdf has nothing else");
+  require(o.distance == DistanceMode::exponential || o.distance_bias == defaults.distance_bias,
+          "--distance-bias is for --distance exponential");
 }
 
 void check_directions(const RenderOptions& o) {
@@ -172,6 +189,7 @@ void RenderOptions::validate() const {
   check_ending(*this);
   check_paths(*this);
   check_directions(*this);
+  check_effects(*this);
   check_view(*this);
 }
 
@@ -209,15 +227,27 @@ PathTracerOptions tracer_options(const Scene& scene, const RenderOptions& option
   return result;
 }
 
+namespace {
+
+// A window along one axis, in proportion; at least a pixel where there is one.
+void scale_window(int size, int& film_size, int& start, int& extent) {
+  const auto scaled = [&](int64_t v) { return static_cast<int>(v * size / film_size); };
+  start = std::min(scaled(start), size - 1);
+  extent = extent > 0 ? std::max(scaled(extent), 1) : extent;
+  film_size = size;
+}
+
+bool within(int64_t start, int64_t extent, int64_t size) {
+  return start >= 0 && start + extent <= size;
+}
+
+}  // namespace
+
 FilmDescription film_of(const FilmDescription& scene_film, const RenderOptions& options) {
   FilmDescription film = scene_film;
   if (options.width > 0) {
-    film.crop_x = film.crop_x * options.width / film.width;
-    film.crop_width = film.crop_width * options.width / film.width;
-    film.crop_y = film.crop_y * options.height / film.height;
-    film.crop_height = film.crop_height * options.height / film.height;
-    film.width = options.width;
-    film.height = options.height;
+    scale_window(options.width, film.width, film.crop_x, film.crop_width);
+    scale_window(options.height, film.height, film.crop_y, film.crop_height);
   }
   if (options.crop_width > 0) {
     film.crop_x = options.crop_x;
@@ -230,8 +260,8 @@ FilmDescription film_of(const FilmDescription& scene_film, const RenderOptions& 
     film.crop_width = film.width;
     film.crop_height = film.height;
   }
-  require(film.crop_x >= 0 && film.crop_y >= 0 && film.crop_x + film.crop_width <= film.width &&
-              film.crop_y + film.crop_height <= film.height,
+  require(within(film.crop_x, film.crop_width, film.width) &&
+              within(film.crop_y, film.crop_height, film.height),
           "the crop window {}x{}+{}+{} leaves the film of {}x{} pixels", film.crop_width,
           film.crop_height, film.crop_x, film.crop_y, film.width, film.height);
   require_memory_for(film, options.segments);

@@ -167,12 +167,6 @@ bool Bsdf::has_smooth() const {
   return false;
 }
 
-bool Bsdf::transmissive() const {
-  for (int i = 0; i < count_; ++i)
-    if (is_transmissive(lobes_[i])) return true;
-  return false;
-}
-
 bool Bsdf::smooth_transmissive() const {
   for (int i = 0; i < count_; ++i)
     if (std::holds_alternative<RoughDielectric>(lobes_[i])) return true;

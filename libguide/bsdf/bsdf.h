@@ -30,8 +30,7 @@ class Bsdf {
   Color straight_transmission(const Vec3& wo) const;  // what goes through on a straight line
 
   bool has_smooth() const;           // some lobe has a density
-  bool transmissive() const;         // some lobe, delta or smooth, sends light to the other side
-  bool smooth_transmissive() const;  // some lobe with a density does
+  bool smooth_transmissive() const;  // some lobe with a density sends light to the other side
   // How the smooth part divides light that is equal on both sides, for wo; rough.
   SideShares side_shares(const Vec3& wo) const;
   // n(side of wi) / n(side of wo) for a direction of the smooth part; 1 on the side of wo.

@@ -5,8 +5,6 @@
 namespace waylight {
 namespace {
 
-// Within this of 1 an interface is index-matched: light passes straight through.
-
 float alpha(const Lookup& lookup, const Texture& texture) {
   const float a = lookup.scalar(texture);
   return a > kMinAlpha ? std::min(a, 10.0f) : kMinAlpha;

@@ -36,15 +36,6 @@ struct PairProduct {
   }
 };
 
-// The lane at which the running sum exceeds `target`, which is moved on by the sum before it.
-int choose(Lanes weights, float& target, int count) {
-  const Lanes cumulative = lanes_prefix_sum(weights);
-  const int k = std::min(lanes_count(cumulative <= target), count - 1);
-  const Lanes before = cumulative - weights;
-  target -= before[k];
-  return k;
-}
-
 }  // namespace
 
 GaussianProduct::GaussianProduct(const GaussianMixture& first, const GaussianMixture& second)
@@ -88,8 +79,8 @@ float GaussianProduct::resolved_share(const GaussianMixture& of, float variance)
 
 std::optional<Vec2> GaussianProduct::sample(float u, const Vec2& u2) const {
   float target = u * z_;
-  const int i = choose(row_sum_, target, rows_.count_);
-  const int j = choose(weights_[i], target, lanes_.count_);
+  const int i = lanes_choose(row_sum_, target, rows_.count_);
+  const int j = lanes_choose(weights_[i], target, lanes_.count_);
   const Vec2 y = PairProduct(rows_.component(i), lanes_.component(j)).sample(u2);
   if (!(y.squaredNorm() <= kDiskMaxRadius2)) return std::nullopt;
   return y;

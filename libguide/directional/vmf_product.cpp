@@ -16,15 +16,6 @@ Lanes inverse_norm(Lanes kappa) {
   return 4 * kPi * (x < 0.5f ? series : (1 - exp_clamped(-x)) / x);
 }
 
-// The lane at which the running sum exceeds `target`, which is moved on by the sum before it.
-int choose(Lanes weights, float& target, int count) {
-  const Lanes cumulative = lanes_prefix_sum(weights);
-  const int k = std::min(lanes_count(cumulative <= target), count - 1);
-  const Lanes before = cumulative - weights;
-  target -= before[k];
-  return k;
-}
-
 }  // namespace
 
 VmfProduct::VmfProduct(const VmfMixture& first, const VmfMixture& second)
@@ -56,8 +47,8 @@ VmfProduct::VmfProduct(const VmfMixture& first, const VmfMixture& second)
 
 Vec3 VmfProduct::sample(float u, const Vec2& u2) const {
   float target = u * z_;
-  const int i = choose(row_sum_, target, rows_.count_);
-  const int j = choose(weights_[i], target, lanes_.count_);
+  const int i = lanes_choose(row_sum_, target, rows_.count_);
+  const int j = lanes_choose(weights_[i], target, lanes_.count_);
   const Vec3 sum = rows_.kappa_[i] * rows_.mean(i) + lanes_.kappa_[j] * lanes_.mean(j);
   const float kappa = sum.norm();
   return sample_vmf(kappa > 0 ? Vec3(sum / kappa) : Vec3::UnitZ(), kappa, u2);

@@ -14,8 +14,9 @@ void open(std::optional<CellGuide>& guide, const GuideCacheView& cache, const Ca
   if (!guide->valid()) guide.reset();
 }
 
-bool may_guide(const DirectionOptions& options, const GuidingCaches& caches, int material) {
-  return options.guide != DirectionGuide::none && caches.guided() && caches.may_guide(material);
+bool asks_cache(const DirectionOptions& options, const GuidingCaches& caches, int material) {
+  return (options.guide != DirectionGuide::none || options.estimates) && caches.guided() &&
+         caches.may_guide(material);
 }
 
 // The shading normal on the side of wo.
@@ -33,15 +34,33 @@ DirectionSampler::DirectionSampler(const Scene& scene, const GuidingCaches& cach
                                    const DirectionOptions& options, const SurfacePoint& at,
                                    const Vec3& wo, TransportMode mode)
     : options_(options),
-      here_(may_guide(options, caches, at.material) ? caches.locate(at.p, facing(at, wo)) : 0),
+      here_(asks_cache(options, caches, at.material) ? caches.locate(at.p, facing(at, wo)) : 0),
       resolved_(scene.bsdf(at, wo, mode)),
       ng_(at.ng),
       wo_local_(resolved_.frame.to_local(wo)),
       ng_side_(resolved_.frame.n.dot(at.ng) >= 0 ? 1.0f : -1.0f),
       has_smooth_(resolved_.bsdf.has_smooth()),
       delta_prob_(resolved_.bsdf.delta_prob(wo_local_)) {
-  if (may_guide(options, caches, at.material) && has_smooth_ && delta_prob_ < 1)
+  if (!asks_cache(options, caches, at.material) || !has_smooth_ || !(delta_prob_ < 1)) return;
+  if (options.guide == DirectionGuide::none)
+    estimate(caches, at, facing(at, wo));
+  else
     prepare_guide(caches, at, facing(at, wo));
+}
+
+// The light that the cells know of, without a guide.
+void DirectionSampler::estimate(const GuidingCaches& caches, const SurfacePoint& at,
+                                const Vec3& normal) {
+  const GuideCacheView& cache = caches.guide();
+  const CacheCell* near = cache.guide_at(here_, at.p, normal);
+  if (!resolved_.bsdf.smooth_transmissive()) {
+    irradiance_ = near && wo_local_.z() > 0 ? near->irradiance : 0;
+    return;
+  }
+  const CacheCell* far = cache.guide_at(caches.locate(at.p, -normal), at.p, -normal);
+  const SideShares shares = resolved_.bsdf.side_shares(wo_local_);
+  if (near && far)
+    irradiance_ = shares.reflected * near->irradiance + shares.transmitted * far->irradiance;
 }
 
 void DirectionSampler::prepare_guide(const GuidingCaches& caches, const SurfacePoint& at,
@@ -59,8 +78,8 @@ void DirectionSampler::prepare_guide(const GuidingCaches& caches, const SurfaceP
     if (known_ < kMinKnown) near_.reset();
   }
   if (!cell()) return;
-  const float guided = known_ * guiding_trust(*cell());
-  bsdf_share_ = 1 - guided * (1 - options_.bsdf_share);
+  guided_ = known_ * guiding_trust(*cell());
+  bsdf_share_ = 1 - guided_ * (1 - options_.bsdf_share);
 }
 
 // What was learned of the cell holds from now on. Null where that is to leave it to the BSDF.
@@ -180,9 +199,9 @@ std::optional<DirectionSampler::Candidate> DirectionSampler::candidate(const Vec
 DirectionSample DirectionSampler::finish(const Candidate& c) const {
   const float bsdf_pdf = (1 - delta_prob_) * c.bsdf.pdf;
   const Color bsdf_weight = bsdf_pdf > 0 ? Color(c.bsdf.value / bsdf_pdf) : Color(Color::Ones());
-  const float guide_pdf = known_ * c.guide_pdf + (1 - known_) * c.bsdf.pdf;
-  return {c.wi,        c.bsdf.value / c.pdf, c.pdf,     false,          c.eta,
-          bsdf_weight, c.bsdf.pdf,           guide_pdf, light_pdf(c.wi)};
+  const float guide_pdf = guided_ * c.guide_pdf + (1 - guided_) * c.bsdf.pdf;
+  return {c.wi,        c.bsdf.value / c.pdf, c.pdf,     false,       c.eta,
+          bsdf_weight, c.bsdf.pdf,           guide_pdf, light_pdf(c)};
 }
 
 std::optional<Vec3> DirectionSampler::sample_guide(float u, const Vec2& u2) const {
@@ -190,9 +209,11 @@ std::optional<Vec3> DirectionSampler::sample_guide(float u, const Vec2& u2) cons
   return far_->sample((u - near_prob_) / (1 - near_prob_), u2);
 }
 
-float DirectionSampler::light_pdf(const Vec3& wi) const {
+float DirectionSampler::light_pdf(const Candidate& c) const {
   if (!options_.compares || !guided()) return 0;
-  return near_ && !far_ ? near_->light_pdf(wi) : guide_pdf(wi);
+  const float light = near_ && !far_ ? near_->light_pdf(c.wi) : c.guide_pdf;
+  const float trust = guiding_trust(*cell());
+  return trust * light + (1 - trust) * c.bsdf.pdf;
 }
 
 float DirectionSampler::guide_pdf(const Vec3& wi) const {

@@ -17,6 +17,7 @@ struct DirectionOptions {
   bool learned = false;  // guide and share of a cell are those learned for it, where there are any
   bool light_alone = false;  // no product, whatever was learned
   bool compares = false;     // samples tell light_pdf
+  bool estimates = false;    // reflected_estimate() is asked for, also without a guide
 };
 
 struct DirectionSample {
@@ -61,6 +62,8 @@ class DirectionSampler {
   bool has_smooth() const { return has_smooth_; }
   float delta_prob() const { return delta_prob_; }  // of one of the delta lobes
   bool guided() const { return bsdf_share_ < 1; }
+  // Whether geometric and shading normal agree on the side that wi is on.
+  bool same_side(const Vec3& wi) const { return same_side(wi, resolved_.frame.to_local(wi)); }
   float bsdf_share() const { return bsdf_share_; }
   const CacheCell* cell() const {  // whose share of BSDF sampling holds; null where none is known
     return near_ ? &near_->cell() : far_ ? &far_->cell() : nullptr;
@@ -81,11 +84,12 @@ class DirectionSampler {
 
   void prepare_guide(const GuidingCaches& caches, const SurfacePoint& at, const Vec3& normal);
   float prepare_sides(const GuidingCaches& caches, const SurfacePoint& at, const Vec3& normal);
+  void estimate(const GuidingCaches& caches, const SurfacePoint& at, const Vec3& normal);
   const CacheCell* choose(const GuidingCaches& caches, const CacheCell* cell);
   float prepare_fit(const GuidingCaches& caches, const SurfacePoint& at);
   std::optional<Vec3> sample_guide(float u, const Vec2& u2) const;
   float guide_pdf(const Vec3& wi) const;
-  float light_pdf(const Vec3& wi) const;
+  float light_pdf(const Candidate& candidate) const;
   float density(float bsdf_pdf, float guide_pdf) const;
   std::optional<DirectionSample> sample_delta(float u) const;
   std::optional<Candidate> sample_smooth(float u, float u_lobe, const Vec2& u2) const;
@@ -103,7 +107,8 @@ class DirectionSampler {
   bool has_smooth_ = false;
   float delta_prob_ = 0;
   float known_ = 1;                          // share of the BSDF that the guide is for
-  float bsdf_share_ = 1;                     // 1 - known (1 - a)
+  float guided_ = 0;                         // of scattering, by the guide where a is 0
+  float bsdf_share_ = 1;                     // 1 - guided (1 - a)
   float irradiance_ = 0;                     // of the cell; 0 where none is known
   float reflected_per_irradiance_ = kInvPi;  // of a surface with albedo 1
   std::optional<CellGuide> near_, far_;      // on the side of wo; behind a surface that transmits

@@ -14,7 +14,6 @@ Flight standard_flight(const FlightSpace& space, Sampler& sampler) {
 }
 
 Flight equiangular_flight(const Scene& scene, const FlightSpace& space, Sampler& sampler) {
-  if (!space.medium.homogeneous()) return standard_flight(space, sampler);
   const std::optional<Vec3> light = light_point(scene, space, sampler);
   return light ? EquiangularFlight(space, *light).sample(sampler) : standard_flight(space, sampler);
 }
@@ -35,9 +34,8 @@ Flight sample_flight(FlightMethod method, const Scene& scene, const FlightSpace&
                      const FlightOptions& options, Sampler& sampler) {
   switch (method) {
     case FlightMethod::guided:
-      if (space.medium.homogeneous()) return guided_flight(scene, space, options, sampler);
-      return options.guides_grids ? TrackedFlight(space, options).sample(sampler)
-                                  : standard_flight(space, sampler);
+      return space.medium.homogeneous() ? guided_flight(scene, space, options, sampler)
+                                        : TrackedFlight(space, options).sample(sampler);
     case FlightMethod::probability:
       return ProbabilityFlight(space, options).sample(sampler);
     case FlightMethod::equiangular:

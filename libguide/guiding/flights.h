@@ -13,7 +13,17 @@ inline bool needs_guides(FlightMethod method) {
   return method == FlightMethod::guided || method == FlightMethod::probability;
 }
 
-// equiangular is standard in media that vary, and where no light is near.
+// Whether a method is the standard one in a medium: equiangular flights are in media that vary, and
+// guided ones where options.guides_grids is false.
+inline bool is_standard(FlightMethod method, const MediumTracker& medium,
+                        const FlightOptions& options) {
+  if (method == FlightMethod::standard) return true;
+  if (medium.homogeneous()) return false;
+  return method == FlightMethod::equiangular ||
+         (method == FlightMethod::guided && !options.guides_grids);
+}
+
+// By a method that is not the standard one in the medium. equiangular is where no light is near.
 Flight sample_flight(FlightMethod method, const Scene& scene, const FlightSpace& space,
                      const FlightOptions& options, Sampler& sampler);
 

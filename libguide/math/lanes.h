@@ -3,6 +3,7 @@
 // A vector type of the compiler, not a loop over an array: without -ffast-math a sum over an array
 // has a fixed order and is not vectorised.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -73,6 +74,16 @@ inline int lanes_count(IntLanes mask) {
   mask += __builtin_shufflevector(mask, mask, 4, 5, 6, 7, 0, 1, 2, 3);
   mask += __builtin_shufflevector(mask, mask, 2, 3, 0, 1, 6, 7, 4, 5);
   return -(mask[0] + mask[1]);
+}
+
+// The lane at which the running sum exceeds `target`, which is moved on by the sum before it; the
+// last of `count` where none does.
+inline int lanes_choose(Lanes weights, float& target, int count) {
+  const Lanes cumulative = lanes_prefix_sum(weights);
+  const int k = std::min(lanes_count(cumulative <= target), count - 1);
+  const Lanes before = cumulative - weights;
+  target -= before[k];
+  return k;
 }
 
 }  // namespace waylight

@@ -22,13 +22,13 @@ int side_of(const Eigen::Vector3i& size) {
 ExtinctionBlocks::ExtinctionBlocks(const VolumeGrid& density, float scale)
     : side_(side_of(density.size())), to_voxels_(density) {
   counts_ = counts_of(density.size(), side_);
-  extent_ = density.size().cast<float>() / static_cast<float>(side_);
+  low_ = density.margin() / static_cast<float>(side_);
+  high_ = density.size().cast<float>() / static_cast<float>(side_) - low_;
   blocks_.reserve(static_cast<size_t>(counts_.x()) * counts_.y() * counts_.z());
   for (int z = 0; z < counts_.z(); ++z)
     for (int y = 0; y < counts_.y(); ++y)
       for (int x = 0; x < counts_.x(); ++x) {
         blocks_.push_back(bounds_of(density, scale, {x, y, z}));
-        most_ = std::max(most_, blocks_.back().most);
       }
 }
 
@@ -59,12 +59,12 @@ BlockWalk::BlockWalk(const ExtinctionBlocks& blocks, const Ray& ray, float t_max
   const Vec3 direction = blocks.to_voxels_.direction(ray.direction) / side;
   for (int axis = 0; axis < 3; ++axis) {
     const float o = origin[axis], d = direction[axis];
-    const float size = blocks.extent_[axis];
+    const float low = blocks.low_[axis], high = blocks.high_[axis];
     if (d == 0) {
-      if (o < 0 || o > size) t_exit_ = -1;
+      if (o < low || o > high) t_exit_ = -1;
       continue;
     }
-    const float to_low = -o / d, to_high = (size - o) / d;
+    const float to_low = (low - o) / d, to_high = (high - o) / d;
     t_ = std::max(t_, std::min(to_low, to_high));
     t_exit_ = std::min(t_exit_, std::max(to_low, to_high));
   }

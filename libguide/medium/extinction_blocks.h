@@ -32,7 +32,6 @@ class ExtinctionBlocks {
   const ExtinctionBounds& at(const Eigen::Vector3i& block) const {
     return blocks_[(size_t(block.z()) * counts_.y() + block.y()) * counts_.x() + block.x()];
   }
-  float most() const { return most_; }  // of them all
 
  private:
   friend class BlockWalk;
@@ -40,9 +39,8 @@ class ExtinctionBlocks {
                              const Eigen::Vector3i& block) const;
 
   int side_ = 1;
-  float most_ = 0;
   Eigen::Vector3i counts_ = Eigen::Vector3i::Zero();
-  Vec3 extent_ = Vec3::Zero();  // of the grid, in blocks; the last ones may reach beyond it
+  Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();  // sides of the grid, in blocks; these may go on
   WorldToVoxels to_voxels_;
   std::vector<ExtinctionBounds> blocks_;
 };

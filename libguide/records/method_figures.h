@@ -7,7 +7,7 @@
 namespace waylight {
 
 // What a pilot saw of one way to trace paths. Per path: relative variance of its pixel, and its
-// cost, in processor seconds or rays. uncertainty: standard error of the logarithm of the variance
+// cost, in processor seconds or rays. uncertainty: standard error of the logarithm of their product
 // over that of the first way.
 struct MethodFigures {
   std::string name;

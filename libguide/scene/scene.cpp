@@ -18,7 +18,6 @@ std::vector<bool> transparent_materials(const std::vector<Material>& materials) 
 
 // Of a light's distance: what a shadow ray leaves out at its far end.
 constexpr float kShadowMargin = 1e-4f;
-constexpr int kMaxCrossings = 1000;
 
 }  // namespace
 

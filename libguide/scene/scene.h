@@ -12,6 +12,9 @@
 
 namespace waylight {
 
+// Transparent surfaces in a row before a ray is given up.
+inline constexpr int kMaxCrossings = 1000;
+
 // Where rays begin: a point of a medium as it is, or of a surface.
 struct RayOrigin {
   Vec3 p = Vec3::Zero();

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "libguide/base/parallel.h"
+#include "libguide/base/stopwatch.h"
 
 namespace waylight {
 namespace {
@@ -13,12 +13,6 @@ constexpr int kTilesPerTurn = 32;
 constexpr int kMaxRounds = 8;  // over the whole frame
 // Cost over a vertex without guide and over a standard flight, in rays.
 constexpr double kGuidedVertex = 0.4, kGuidedFlight = 2;
-
-double thread_seconds() {
-  timespec now;
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 // Of the paths of one arm through one tile, two for each place.
 struct TileSums {

@@ -13,13 +13,13 @@ struct PathTracer::State {
   Sampler sampler;
   Color throughput;
   Color roulette_throughput;  // what BSDF sampling would have had since roulette by the caches
-  float eta_scale;            // undoes the 1/eta^2 of refraction for roulette
   Vec3 previous;              // last vertex, from which light_pdf is measured
   float pdf;                  // of the direction of `ray`
   bool specular;              // it came from a delta lobe or the camera
   int unjudged;               // delta scatterings since roulette went by the caches
   int edges;
-  int medium;  // that `ray` is in, or kNone
+  int medium;         // that `ray` is in, or kNone
+  float crossed = 0;  // distance from the last vertex to the pane that `ray` leaves
 
   void weigh(const Color& factor) {
     throughput *= factor;
@@ -29,7 +29,6 @@ struct PathTracer::State {
   void judged() {
     unjudged = 0;
     roulette_throughput = Color::Ones();
-    eta_scale = 1;
   }
 };
 

@@ -1,5 +1,7 @@
 #include "libguide/transport/path_tracer.h"
 
+#include <utility>
+
 #include "libguide/transport/mis_weight.h"
 #include "libguide/transport/path_state.h"
 #include "libguide/transport/split_sampler.h"
@@ -25,7 +27,7 @@ uint32_t cell_of(const GuidingCaches& /*caches*/, const PhaseSampler& /*directio
 PathRecord PathTracer::trace(const Ray& ray, const Sampler& sampler,
                              const PathContext& context) const {
   Walk walk(context);
-  State state{ray,          sampler, Color::Ones(), Color::Ones(), 1, ray.origin, 0, true,
+  State state{ray,          sampler, Color::Ones(), Color::Ones(), ray.origin, 0, true,
               kMaxUnjudged, 1,       camera_medium_};
   walk.reach(1);
   return follow(walk, state);
@@ -41,7 +43,7 @@ PathRecord PathTracer::gather(const Vec3& p, int medium, const Sampler& sampler,
   at.medium = &scene_.medium(medium);
   at.index = medium;
   Walk walk(context);
-  State state{Ray{}, sampler, Color::Constant(4 * kPi), Color::Ones(), 1, p, 0, false, kMaxUnjudged,
+  State state{Ray{}, sampler, Color::Constant(4 * kPi), Color::Ones(), p, 0, false, kMaxUnjudged,
               0,     medium};
   return go_on(walk, state, at, directions) ? follow(walk, state) : walk.record;
 }
@@ -67,7 +69,7 @@ bool PathTracer::advance(Walk& walk, State& state) const {
 // The next vertex that is really met: transparent surfaces are crossed with probability
 // 1 - opacity, and media with the probability of the flight.
 PathVertex PathTracer::next_vertex(Walk& walk, State& state) const {
-  float crossed = 0;
+  float crossed = std::exchange(state.crossed, 0.0f);
   for (int i = 0; i < kMaxCrossings; ++i) {
     ++walk.record.rays;
     std::optional<SurfacePoint> at = scene_.intersect(state.ray);
@@ -105,7 +107,8 @@ std::optional<MediumPoint> PathTracer::fly(Walk& walk, State& state, float t_max
 Flight PathTracer::flight(Walk& walk, State& state, const MediumTracker& medium,
                           float t_max) const {
   const FlightMethod method = options_.flight;
-  if (method == FlightMethod::standard || (needs_guides(method) && caches_.media().empty()))
+  if (is_standard(method, medium, options_.flights) ||
+      (needs_guides(method) && caches_.media().empty()))
     return medium.fly(state.ray, t_max, state.throughput, state.sampler);
   ++walk.record.guided_flights;
   const Color channels = channel_probs(state.throughput);
@@ -247,7 +250,7 @@ bool PathTracer::scatter(Walk& walk, State& state, const At& at,
     walk.record.bsdf_share += directions.bsdf_share();
   }
   if (!next) return false;
-  if (next->straight) return pass_pane(state, at, *next);
+  if (next->straight) return pass_pane(walk, state, at, *next);
   if (too_deep(state)) return false;
   const uint32_t cell = walk.context.guided ? cell_of(caches_, directions) : kNoCell;
   if (cell != kNoCell && !next->is_delta)
@@ -255,8 +258,7 @@ bool PathTracer::scatter(Walk& walk, State& state, const At& at,
                                     next->pdf / (1 - directions.delta_prob()),
                                     luminance(walk.record.radiance)});
   state.throughput *= next->weight;
-  state.roulette_throughput *= next->bsdf_weight.min(1.0f);
-  state.eta_scale *= next->eta * next->eta;
+  state.roulette_throughput *= (next->bsdf_weight * (next->eta * next->eta)).min(1.0f);
   state.pdf = next->pdf;
   state.specular = next->is_delta;
   state.previous = at.p;
@@ -274,7 +276,10 @@ bool PathTracer::scatter(Walk& walk, State& state, const At& at,
 // A pane is no vertex: next-event estimation sees through it, so what is met beyond is weighed
 // against that as if there were none.
 template <typename At>
-bool PathTracer::pass_pane(State& state, const At& at, const DirectionSample& through) const {
+bool PathTracer::pass_pane(Walk& walk, State& state, const At& at,
+                           const DirectionSample& through) const {
+  if (state.edges == 1) walk.record.forget_first_vertex();
+  state.crossed = at.t;
   state.weigh(through.weight);
   state.medium = medium_after(at, through.wi, state.medium);
   state.ray = scene_.spawn_ray(at, through.wi);
@@ -288,7 +293,7 @@ bool PathTracer::pass_pane(State& state, const At& at, const DirectionSample& th
 bool PathTracer::survives_throughput(State& state) const {
   if (options_.roulette == Roulette::none || state.unjudged < kMaxUnjudged) return true;
   if (state.edges < options_.rr_depth) return true;
-  const float expected = state.roulette_throughput.maxCoeff() * state.eta_scale;
+  const float expected = state.roulette_throughput.maxCoeff();
   const float survival_prob = std::clamp(expected, kMinSurvival, 0.95f);
   if (state.sampler.next() >= survival_prob) return false;
   state.weigh(Color::Constant(1 / survival_prob));

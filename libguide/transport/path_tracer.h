@@ -69,6 +69,9 @@ struct PathRecord {
   float bsdf_share = 0;      // sum of the shares of BSDF sampling at smooth ones
   uint32_t rays = 0;
   uint32_t guided_flights = 0;  // through media, by other than the standard method
+
+  // It turned out to be a pane that the path goes straight through.
+  void forget_first_vertex() { albedo = Color::Zero(), normal = Vec3::Zero(), depth = 0; }
 };
 
 class PathTracer {
@@ -76,7 +79,9 @@ class PathTracer {
   // camera_medium: the one that camera rays start in.
   PathTracer(const Scene& scene, const GuidingCaches& caches, const PathTracerOptions& options,
              int camera_medium = kNone)
-      : scene_(scene), caches_(caches), options_(options), camera_medium_(camera_medium) {}
+      : scene_(scene), caches_(caches), options_(options), camera_medium_(camera_medium) {
+    options_.directions.estimates = options.roulette == Roulette::guided;
+  }
 
   // The same scene and caches by other options.
   PathTracer with(const PathTracerOptions& options) const {
@@ -118,7 +123,7 @@ class PathTracer {
   template <typename At, typename Directions>
   bool scatter(Walk& walk, State& state, const At& at, const Directions& directions) const;
   template <typename At>
-  bool pass_pane(State& state, const At& at, const DirectionSample& through) const;
+  bool pass_pane(Walk& walk, State& state, const At& at, const DirectionSample& through) const;
   bool survives_throughput(State& state) const;
 
   const Scene& scene_;

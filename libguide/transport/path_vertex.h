@@ -6,9 +6,6 @@
 
 namespace waylight {
 
-// Transparent surfaces in a row before a path is given up.
-inline constexpr int kMaxCrossings = 1000;
-
 // A vertex in a medium.
 struct MediumPoint : RayOrigin {
   float t = 0;  // distance from the vertex before

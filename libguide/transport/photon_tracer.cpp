@@ -85,7 +85,7 @@ bool PhotonTracer::visit(Particle& particle, const SurfacePoint& at, PhotonRecor
                                 kBsdfShare};
   const DirectionSampler directions(scene_, guide_, guided, at, -particle.ray.direction, mode);
   if (stores(particle, at, directions.resolved().bsdf)) store(particle, at, records);
-  if (static_cast<int>(particle.depth) + 1 >= options_.max_depth) {
+  if (static_cast<int>(particle.depth) >= options_.max_depth) {
     ++records->counts.too_deep;
     return false;
   }
@@ -99,7 +99,7 @@ bool PhotonTracer::visit(Particle& particle, const SurfacePoint& at, PhotonRecor
 
 bool PhotonTracer::visit(Particle& particle, const MediumPoint& at, PhotonRecords* records,
                          Sampler& sampler) const {
-  if (static_cast<int>(particle.depth) + 1 >= options_.max_depth) {
+  if (static_cast<int>(particle.depth) >= options_.max_depth) {
     ++records->counts.too_deep;
     return false;
   }

@@ -7,6 +7,7 @@ namespace {
 
 constexpr double kPlaces = 16384;
 constexpr uint64_t kPilotStream = 0x70696c6f74;  // apart from the numbers of the render
+constexpr uint64_t kWhereStream = 0x7768657265;  // apart from those of the paths
 
 }  // namespace
 
@@ -24,7 +25,7 @@ Sampler PilotFrame::sampler(int place, int round, int sample) const {
 }
 
 Ray PilotFrame::ray(int place, int round, Sampler& sampler) const {
-  Sampler where(hash_combine(seed_, uint64_t(round)), uint64_t(place), 0);
+  Sampler where(hash_combine(seed_ ^ kWhereStream, uint64_t(round)), uint64_t(place), 0);
   const Vec2 cell = Vec2(place % columns_, place / columns_) + where.next_2d();
   const Vec2 pixel = (cell.array() / Vec2(columns_, rows_).array() *
                       Vec2(camera_.width(), camera_.height()).array())

@@ -207,14 +207,14 @@ bool RadianceTracer::go_on(State& state, const At& at, const DirectionSample& ne
                            RadianceStep& step) const {
   step.weight *= next.weight;
   state.path.push_back(step);
-  state.throughput *= step.weight;
+  if (!is_black(step.weight)) state.throughput *= step.weight;  // else it goes on for `step` alone
   state.pdf = next.pdf;
   state.specular = next.is_delta;
   state.previous = at.p;
   state.medium = medium_after(at, next.wi, state.medium);
   state.ray = scene_.spawn_ray(at, next.wi);
   ++state.depth;
-  return !is_black(step.weight);
+  return step.stores || !is_black(step.weight);
 }
 
 template <typename At, typename Directions>
@@ -224,7 +224,7 @@ void RadianceTracer::add_direct_light(State& state, const At& at, const Directio
   const std::optional<LightSample> light = scene_.sample_light(at.p, u, state.sampler.next_2d());
   if (!light || !(light->pdf > 0)) return;
   const EvalPdf f = directions.evaluate(light->wi);
-  if (is_black(f.value)) return;
+  if (!(f.pdf > 0)) return;
   const Color visibility = scene_.transmittance(at, medium_after(at, light->wi, state.medium),
                                                 light->wi, light->distance, state.sampler);
   if (is_black(visibility)) return;

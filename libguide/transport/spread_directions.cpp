@@ -33,8 +33,9 @@ float SpreadDirections::spread(const Vec3& wi, float path_pdf) const {
 }
 
 EvalPdf SpreadDirections::evaluate(const Vec3& wi) const {
+  if (!path_.same_side(wi)) return {};
   const EvalPdf f = path_.evaluate(wi);
-  return is_black(f.value) ? EvalPdf{} : EvalPdf{f.value, spread(wi, f.pdf)};
+  return {f.value, spread(wi, f.pdf)};
 }
 
 std::optional<DirectionSample> SpreadDirections::sample(Sampler& sampler) const {

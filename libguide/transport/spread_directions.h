@@ -9,6 +9,8 @@ namespace waylight {
 //   p(wi) = c cos / pi + (1 - c) p_path(wi),   c = 1/2,
 // half as much on either side where light scatters through. cos / p is then at most 2 pi (4 pi),
 // however narrow the BSDF and however wrong a cache: no sample of Li cos / p is large for its pdf.
+// Directions in which the BSDF scatters nothing are sampled too, with weight 0: light comes from
+// them all the same.
 class SpreadDirections {
  public:
   // path must outlive this.

@@ -50,7 +50,7 @@ double emission_met(const Scene& scene, uint32_t pass, uint64_t count) {
   options.quantity = Quantity::importance;
   options.count = count;
   options.pass = pass;
-  options.max_depth = scene.description().integrator.max_depth;
+  options.max_depth = scene.description().integrator.max_depth - 1;  // edges less the first
   double sum = 0;
   trace_photons(
       scene, options,

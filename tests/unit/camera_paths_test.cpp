@@ -149,6 +149,16 @@ TEST(CameraPaths, NoSampleIsLargeForASmallDensity) {
   EXPECT_GT(largest, kPi * kEmitted);
 }
 
+// The light is there, whether or not a narrow lobe without tails scatters it.
+TEST(CameraPaths, LightFromWhereTheBsdfScattersNothingCounts) {
+  RoughConductorMaterial metal;
+  metal.alpha_u = metal.alpha_v = Texture(0.02f);
+  metal.distribution = MicrofacetDistribution::beckmann;
+  const Scene scene(furnace(metal));
+  const Irradiance e = mean_irradiance(trace(scene, 0, 20000).records, kAnywhere);
+  EXPECT_NEAR(e.direct, kPi * kEmitted, 0.02 * kPi * kEmitted);
+}
+
 TEST(CameraPaths, RoughGlassLooksToBothSidesFromEachVertex) {
   RoughDielectricMaterial glass;
   glass.alpha_u = glass.alpha_v = Texture(0.2f);

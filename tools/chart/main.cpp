@@ -21,7 +21,7 @@ Examples:
   chart room.csv -o room.svg --title "Room" --preprocess
   chart room.csv -o memory.svg --y memory_bytes --bars
   chart bsdf.csv product.csv -o segments.svg
-  chart reduction.csv -o reduction.svg --x components --y relmse --linear x)"};
+  chart reduction.csv -o reduction.svg --x cache_components --y relmse --linear x)"};
 
 void declare(CLI::App& app, ChartOptions& options) {
   as_input(app.add_option("TABLES", options.tables, "Tables with a heading (.csv)"))->required();

@@ -23,11 +23,10 @@ std::string format_seconds(double seconds) {
 ProgressPrinter::ProgressPrinter(std::string tool)
     : tool_(std::move(tool)), terminal_(::isatty(STDERR_FILENO) == 1) {}
 
-std::string ProgressPrinter::line(double done, double total, double seconds) const {
+std::string ProgressPrinter::line(double done, double total, double rate) const {
   std::string text = fmt::format("{}: {} {}", tool_, format_count(done), unit_);
   if (total > 0) text += fmt::format(" ({:.0f} %)", 100 * done / total);
-  if (seconds <= 0 || done <= 0) return text;
-  const double rate = done / seconds;
+  if (!(rate > 0)) return text;
   text += fmt::format(", {}/s", format_count(rate));
   if (total > done) text += fmt::format(", {} left", format_seconds((total - done) / rate));
   return text;
@@ -35,14 +34,18 @@ std::string ProgressPrinter::line(double done, double total, double seconds) con
 
 void ProgressPrinter::update(double done, double total, const char* unit) {
   const Clock::time_point now = Clock::now();
-  if (unit_ != unit) {
+  if (unit_ != unit || done < done_) {
     unit_ = unit;
     started_ = printed_ = now;
+    done_at_start_ = done;
   }
+  done_ = done;
   const double interval = terminal_ ? 0.2 : 10.0;
   if (std::chrono::duration<double>(now - printed_).count() < interval) return;
   printed_ = now;
-  const std::string text = line(done, total, std::chrono::duration<double>(now - started_).count());
+  const double seconds = std::chrono::duration<double>(now - started_).count();
+  const double rate = seconds > 0 ? (done - done_at_start_) / seconds : 0;
+  const std::string text = line(done, total, rate);
   // "\033[K" clears what a longer line left behind.
   std::fputs((terminal_ ? "\r" + text + "\033[K" : text + "\n").c_str(), stderr);
   std::fflush(stderr);

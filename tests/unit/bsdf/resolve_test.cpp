@@ -197,10 +197,9 @@ TEST(Resolve, KindsOfLobesAreKnown) {
   EXPECT_TRUE(mean(DiffuseMaterial{}).has_smooth());
   EXPECT_FALSE(mean(ConductorMaterial{}).has_smooth());
   EXPECT_TRUE(mean(PlasticMaterial{}).has_smooth());
-  EXPECT_TRUE(mean(DielectricMaterial{}).transmissive());
   EXPECT_FALSE(mean(DielectricMaterial{}).smooth_transmissive());
   EXPECT_TRUE(mean(RoughDielectricMaterial{}).smooth_transmissive());
-  EXPECT_FALSE(mean(RoughPlasticMaterial{}).transmissive());
+  EXPECT_FALSE(mean(RoughPlasticMaterial{}).smooth_transmissive());
 }
 
 TEST(Material, KindsAreMitsubasNames) {

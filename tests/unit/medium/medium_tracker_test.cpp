@@ -103,6 +103,19 @@ TEST(MediumTracker, TransmittanceIsUnbiasedAndWithinZeroAndOne) {
   }
 }
 
+// Half a voxel around them holds nothing, for shadow rays and flights alike.
+TEST(MediumTracker, AGridWhoseValuesStandOnItsSidesEndsThere) {
+  auto grid = std::make_shared<VolumeGrid>();
+  grid->voxels = VoxelBricks(Eigen::Vector3i::Constant(2), 1, std::vector<float>(8, 1.0f));
+  grid->values_on_sides = true;
+  const MediumTracker medium(cloud(grid, 1));
+  const Ray through{Vec3(-2, 0.4f, 0.6f), Vec3::UnitX()};
+  Sampler sampler(1, 1, 1);
+  RandomStream random(sampler);
+  EXPECT_NEAR(medium.transmittance(through, kInfinity, random).x(), std::exp(-1.0f), 1e-5f);
+  EXPECT_EQ(medium.transmittance({Vec3(-2, -0.1f, 0.6f), Vec3::UnitX()}, kInfinity, random).x(), 1);
+}
+
 TEST(MediumTracker, ARayThatMissesTheGridPasses) {
   const MediumTracker medium(cloud(lumpy_grid(), 1000));
   const Ray beside{Vec3(-1, 2, 0), Vec3::UnitX()};

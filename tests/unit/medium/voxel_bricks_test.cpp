@@ -197,7 +197,6 @@ TEST(ExtinctionBlocks, OfAWideGridAreFewAndMissNothing) {
   const VolumeGrid grid{VoxelBricks(Size::Constant(16000), 1, OneBrick(filled))};
   const ExtinctionBlocks blocks(grid, 3);
   EXPECT_LE(blocks.counts().cast<int64_t>().prod(), int64_t{1} << 21);
-  EXPECT_EQ(blocks.most(), 3);
   int with_extinction = 0;
   for_each_voxel({Size::Zero(), (blocks.counts().array() - 1).matrix()},
                  [&](const Size& block) { with_extinction += blocks.at(block).most > 0; });
