@@ -3,6 +3,8 @@
 WAYLIGHT_SCENES ?= ../shared/scenes
 NAME := kitchenette
 SCENE := $(WAYLIGHT_SCENES)/kitchenette/simple.xml
+$(if $(wildcard $(SCENE))$(filter clean,$(MAKECMDGOALS)),,$(error no $(SCENE): \
+  WAYLIGHT_SCENES is to be the folder of scenes made elsewhere, see docs/scenes.md))
 SIZE ?= 640x480
 PHOTONS ?= 16000000
 TIMES ?= 15 30 60

@@ -1,6 +1,9 @@
 # Rules of the training: photons, and the cache trained on them, $(OUT)/scene.cache. Included by
 # rules.mk, which lists the variables. `training` is the stages whose time is that of the training.
 
+$(if $(and $(NAME),$(SCENE)),,$(error this file is included by pipelines: \
+  run one that sets NAME and SCENE, for example make -f pipelines/gap-room.mk))
+
 traced_lights = --count $(PHOTONS)
 traced_camera = --count 0 --paths $(PATHS)
 traced_both = --count $(PHOTONS) --paths $(PATHS)
@@ -18,9 +21,6 @@ $(OUT)/scene.cache $(OUT)/photon-trace.json $(OUT)/cache-train.json &: $(SCENE) 
 	  $(ROOT)/train-until.sh $(OUT) $(TRAIN_FOR) $(SCENE) $(SCENE_FLAGS)
 
 training := photon-trace cache-train
-
-$(OUT)/passes.svg:
-	@echo "passes-chart needs PASSES=N, at least 1" >&2; exit 2
 else ifeq ($(PASSES),0)
 $(OUT)/scene.photons $(OUT)/photon-trace.json &: $(SCENE) $(SCENE_INPUTS) \
     $(OUT)/.options/photon-trace $(BIN)/photon-trace
@@ -34,9 +34,6 @@ $(OUT)/scene.cache $(OUT)/cache-train.json &: $(OUT)/scene.photons $(OUT)/.optio
 	  --stats $(OUT)/cache-train.json $(CACHE_TRAIN_FLAGS) $(QUIET)
 
 training := photon-trace cache-train
-
-$(OUT)/passes.svg:
-	@echo "passes-chart needs PASSES=N, at least 1" >&2; exit 2
 else
 pass_numbers := $(shell seq $(PASSES))
 before = $(shell expr $(1) - 1)
@@ -108,4 +105,10 @@ $(OUT)/passes.svg: $(OUT)/passes.csv $(BIN)/chart
 
 training := $(foreach i,$(pass_numbers),$(if $(call importance_of,$(i)),\
   importon-trace-$(i) importance-train-$(i)) photon-trace-$(i) cache-train-$(i))
+endif
+
+# Without passes there is nothing to draw, though a chart of other options may be there.
+ifeq ($(filter-out 0,$(PASSES)),)
+$(OUT)/passes.svg: FORCE
+	@echo "passes-chart needs PASSES=N, at least 1" >&2; exit 2
 endif

@@ -20,6 +20,8 @@
 .SUFFIXES:
 .DEFAULT_GOAL := all
 
+$(if $(wildcard pipelines/rules.mk),,$(error run make in the root of the repository))
+
 ROOT := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 STABILITY := $(ROOT)/stability
 BIN ?= build/bin
@@ -48,6 +50,8 @@ ENTRIES ?= 512
 TIMED ?= 1
 
 CASES ?= $(all_cases)
+$(if $(filter-out $(all_cases),$(CASES)),$(error no case \
+  $(filter-out $(all_cases),$(CASES)): known are $(strip $(all_cases))))
 
 include $(ROOT)/media-methods.mk
 

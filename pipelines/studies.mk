@@ -13,6 +13,9 @@
 # STUDY_SPP        samples per pixel of the renders
 # UNBIASED_SPP     of the renders whose means are compared
 # UNBIASED_AGAINST image with variance that all methods are compared with, as the reference
+$(if $(and $(NAME),$(SCENE)),,$(error this file is included by pipelines: \
+  run one that sets NAME and SCENE, for example make -f pipelines/gap-room.mk))
+
 THRESHOLDS ?= 0 1 2 5 10 20 30 50 70 90
 STUDY_SPP ?= 32
 UNBIASED_SPP ?= 256
@@ -22,7 +25,6 @@ UNBIASED_AGAINST ?=
 reduction: $(OUT)/reduction.svg
 overhead: $(OUT)/overhead.md
 unbiased: $(OUT)/unbiased.md
-
 
 include $(ROOT)/trade-offs.mk
 

@@ -5,28 +5,33 @@
 #   make -f pipelines/surface-paper.mk equal-time           error at equal time
 #   make -f pipelines/surface-paper.mk preprocessing        times, numbers and sizes of the caches
 #   make -f pipelines/surface-paper.mk studies              reduction, overhead and z-scores
+#   make -f pipelines/surface-paper.mk clean
 #
 # An interrupted run goes on where it stopped; results are in out/surface-paper, one folder a scene.
 # All of it takes SCENES x METHODS x SEEDS x SECONDS, 6 hours by default, and the references.
 #
 # SCENES           pipelines of this folder; those of scenes made elsewhere need WAYLIGHT_SCENES
 # SECONDS          of each render
+# SIZE             of the images, in place of each scene's own
+$(if $(wildcard pipelines/rules.mk),,$(error run make in the root of the repository))
+
 OUT ?= out/surface-paper
 SCENES ?= gap-room jewelry veach-ajar kitchenette living-room
 SECONDS ?= 300
 SEEDS ?= 1 2 3
+SIZE ?=
 METHODS ?= bsdf illumination ris product product-split
 BIN ?= build/bin
 WAYLIGHT_SCENES ?= ../shared/scenes
 
 ROOT := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 
-# All at 640 pixels; kitchenette is compared with the reference that its origin made.
-options_gap-room := SIZE=640x360 PHOTONS=4000000
-options_jewelry := SIZE=640x360 PHOTONS=4000000
+# All at 640 pixels; at its own size kitchenette is compared with the reference that its origin made.
+options_gap-room := SIZE=$(or $(SIZE),640x360) PHOTONS=4000000
+options_jewelry := SIZE=$(or $(SIZE),640x360) PHOTONS=4000000
 options_veach-ajar := PHOTONS=8000000
-options_kitchenette := REFERENCE=$(WAYLIGHT_SCENES)/kitchenette/kitchenette_ref.exr \
-  COMPARE_FLAGS='$(COMPARE_FLAGS) --resize-reference'
+options_kitchenette := $(if $(SIZE),,REFERENCE=$(WAYLIGHT_SCENES)/kitchenette/kitchenette_ref.exr \
+  COMPARE_FLAGS='$(COMPARE_FLAGS) --resize-reference')
 reference_of = $(if $(findstring REFERENCE=,$(options_$(1))),,'REFERENCE=$$(OUT)/reference.exr')
 scene_make = $(MAKE) --no-print-directory -f $(ROOT)/$(1).mk OUT=$(OUT)/$(1) BIN=$(BIN) \
   WAYLIGHT_SCENES=$(WAYLIGHT_SCENES) TIMES='$(SECONDS)' SEEDS='$(SEEDS)' METHODS='$(METHODS)' \
@@ -34,7 +39,7 @@ scene_make = $(MAKE) --no-print-directory -f $(ROOT)/$(1).mk OUT=$(OUT)/$(1) BIN
   $(call reference_of,$(1)) $(options_$(1))
 
 .DELETE_ON_ERROR:
-.PHONY: all equal-time preprocessing studies $(SCENES) $(SCENES:%=studies-%)
+.PHONY: all clean equal-time preprocessing studies $(SCENES) $(SCENES:%=studies-%)
 all: equal-time preprocessing studies
 equal-time: $(OUT)/equal-time.md
 preprocessing: $(OUT)/preprocessing.md
@@ -56,3 +61,6 @@ studies: $(SCENES:%=studies-%)
 	@for table in overhead unbiased; do \
 	  awk 'FNR > 2 || NR < 3' $(foreach s,$(SCENES),$(OUT)/$(s)/$$table.md) > $(OUT)/$$table.md; \
 	  cat $(OUT)/$$table.md; done
+
+clean:
+	rm -rf $(OUT)

@@ -1,7 +1,8 @@
 # What a stage leaves to choose, as a chart of error over time with a point for each value:
 #
 #   make -f pipelines/gap-room.mk trade-off-photons PHOTONS_TRIED='100000 1000000'
-#   make -f pipelines/gap-room.mk trade-offs        all of them
+#   make -f pipelines/gap-room.mk trade-offs        all of them: trade-off-medium-cells in scenes
+#                                                   with media only (media.mk)
 #
 # A trade-off is a list of values and the variable that takes each in the place of %. The scene's
 # pipeline runs once per value in $(OUT)/trade-off-NAME/VALUE, which begins with links to what there
@@ -11,6 +12,9 @@
 # STUDY_METHOD     method of the renders                         the last of METHODS
 # NAME_TRIED       the values, by default as below
 # SEEDS            each value is rendered with all of them
+$(if $(and $(NAME),$(SCENE)),,$(error this file is included by pipelines: \
+  run one that sets NAME and SCENE, for example make -f pipelines/gap-room.mk))
+
 STUDY_METHOD ?= $(lastword $(METHODS))
 PHOTONS_TRIED ?= 62500 125000 250000 500000 1000000 2000000 4000000 8000000
 CELLS_TRIED ?= 75 150 300 600 1200 2400 4800
@@ -50,8 +54,8 @@ study_scene = SCENE='$(SCENE)' SCENE_FLAGS='$(SCENE_FLAGS)' SCENE_INPUTS='$(SCEN
 $(eval $(call trade_off,photons,$(PHOTONS_TRIED),PHOTONS=%,--preprocess))
 $(eval $(call trade_off,cells,$(CELLS_TRIED),\
   CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --photons-per-cell %',--preprocess))
-$(eval $(call trade_off,medium-cells,$(MEDIUM_CELLS_TRIED),\
-  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --medium-photons-per-cell %',--preprocess))
+$(if $(guided_media),$(eval $(call trade_off,medium-cells,$(MEDIUM_CELLS_TRIED),\
+  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --medium-photons-per-cell %',--preprocess)))
 $(eval $(call trade_off,lobes,$(LOBES_TRIED),\
   CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --components %',--preprocess))
 $(eval $(call trade_off,reduction,$(REDUCTIONS_TRIED),\

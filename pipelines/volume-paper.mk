@@ -5,8 +5,10 @@
 #   make -f pipelines/volume-paper.mk SCENES=haze TIME=30 SEEDS=1     a part of it
 #   make -f pipelines/volume-paper.mk comparisons           the four tables of SPP and relMSE
 #   make -f pipelines/volume-paper.mk training              times, numbers and sizes of the caches
-#   make -f pipelines/volume-paper.mk shafts                light shafts at 256 and 1024 samples
+#   make -f pipelines/volume-paper.mk shafts                light shafts at 256 and 1024 samples; of `all`
+#                                                           where SCENES has light-shafts
 #   make -f pipelines/volume-paper.mk unbiased              z-scores of all methods
+#   make -f pipelines/volume-paper.mk clean
 #
 # An interrupted run goes on where it stopped; results are in out/volume-paper, one folder a scene.
 # All of it takes SCENES x METHODS x SEEDS x TIME, 9 hours by default, and the references. The time
@@ -17,6 +19,8 @@
 # METHODS          of pipelines/media-methods.mk
 # SIZE             of the images
 # SHAFTS_SIZE SHAFTS_SPP    of the images of light shafts
+$(if $(wildcard pipelines/rules.mk),,$(error run make in the root of the repository))
+
 OUT ?= out/volume-paper
 WAYLIGHT_SCENES ?= ../shared/scenes
 made_elsewhere := $(if $(wildcard $(WAYLIGHT_SCENES)/volumes/wdas_cloud_sixteenth.vdb),wdas-cloud)
@@ -43,8 +47,8 @@ scene_make = $(MAKE) --no-print-directory -f $(ROOT)/$(1).mk OUT=$(OUT)/$(1) BIN
   'UNBIASED_AGAINST=$$(OUT)/reference.exr' $(options_$(1))
 
 .DELETE_ON_ERROR:
-.PHONY: all comparisons training shafts unbiased FORCE $(SCENES) $(SCENES:%=unbiased-%)
-all: comparisons training shafts unbiased
+.PHONY: all clean comparisons training shafts unbiased FORCE $(SCENES) $(SCENES:%=unbiased-%)
+all: comparisons training $(if $(filter light-shafts,$(SCENES)),shafts) unbiased
 comparisons: $(OUT)/comparisons.md
 training: $(OUT)/training.md
 
@@ -65,13 +69,15 @@ $(OUT)/comparisons.md: $(SCENES)
 $(OUT)/training.md: $(SCENES)
 	@$(ROOT)/tables/training.sh $(SCENES:%=$(OUT)/%) > $@.tmp && mv $@.tmp $@ && cat $@
 
-# Light shafts at equal samples: $(OUT)/shafts/METHOD-SPP.png.
+# Light shafts at equal samples, for which the cache of the scene is enough: $(OUT)/shafts/METHOD-SPP.png.
 shafts: $(foreach n,$(SHAFTS_SPP),$(foreach m,none distance,$(OUT)/shafts/$(m)-$(n).png))
 shafts_cache := $(OUT)/light-shafts/reduced.cache
 shafts_none := --distance standard
 shafts_distance := --distance guided --cache $(shafts_cache)
 
-$(shafts_cache): $(filter light-shafts,$(SCENES)) FORCE
+# Where the scene's own pipeline runs too, after it: two must not write the folder at the same time.
+runs_scenes := $(filter all comparisons training unbiased unbiased-% $(SCENES),$(or $(MAKECMDGOALS),all))
+$(shafts_cache): $(if $(runs_scenes),$(filter light-shafts,$(SCENES))) FORCE
 	+$(call scene_make,light-shafts) $@
 
 define shafts_rule
@@ -88,3 +94,6 @@ $(SCENES:%=unbiased-%): unbiased-%: %
 unbiased: $(SCENES:%=unbiased-%)
 	@awk 'FNR > 2 || NR < 3' $(foreach s,$(SCENES),$(OUT)/$(s)/unbiased.md) > $(OUT)/unbiased.md; \
 	  cat $(OUT)/unbiased.md
+
+clean:
+	rm -rf $(OUT)

@@ -212,7 +212,7 @@ small=(SCENES='smoky-room cloud' TIME=0.05 SEEDS=1 BIN=bin OUT=out/volume SIZE=3
 for scene in smoky-room cloud light-shafts; do
   small+=("options_$scene=PHOTONS=2000 REFERENCE_SPP=4 UNBIASED_SPP=4")
 done
-if ! make --no-print-directory -f pipelines/volume-paper.mk "${small[@]}" > log 2>&1; then
+if ! make --no-print-directory -f pipelines/volume-paper.mk "${small[@]}" all shafts > log 2>&1; then
   echo "FAIL volume-paper: make failed"; cat log; ((++failures))
 fi
 for scene in smoky-room cloud; do
@@ -247,6 +247,32 @@ kitchenette() {
 kitchenette || { echo "FAIL compare: no --resize-reference for kitchenette"; ((++failures)); }
 kitchenette SIZE=32x18 &&
   { echo "FAIL compare: kitchenette has a reference of another size"; ((++failures)); }
+
+# A SIZE for all scenes is that of gap-room too, and kitchenette then has a reference of its own.
+make -n --no-print-directory -f pipelines/surface-paper.mk SCENES=gap-room SIZE=32x18 BIN=bin \
+  equal-time > log 2>&1
+if ! grep -q -- '--size 32x18' log || grep -q -- '--size 640x360' log; then
+  echo "FAIL surface-paper: gap-room has not the SIZE that is asked for"; cat log; ((++failures))
+fi
+
+# What would do nothing, or the wrong thing, is refused, and nothing is removed.
+# refused TEXT MAKE-ARGUMENTS...
+refused() {
+  local text=$1
+  shift
+  if make --no-print-directory "$@" > log 2>&1 || ! grep -q -- "$text" log || [[ ! -d out ]]; then
+    echo "FAIL make $*: not refused with \"$text\""; cat log; ((++failures))
+  fi
+}
+for part in rules media grown-cloud studies passes trade-offs; do
+  refused 'included by pipelines' -f "pipelines/$part.mk" clean
+done
+refused 'root of the repository' -C pipelines -f gap-room.mk clean
+refused 'no case nonsense: known are' -f pipelines/stability.mk CASES='few-photons nonsense'
+refused 'passes-chart needs PASSES' -f pipelines/gap-room.mk BIN=bin PASSES=0 passes-chart
+refused 'no elsewhere/living-room/scene.xml: WAYLIGHT_SCENES' -f pipelines/living-room.mk \
+  WAYLIGHT_SCENES=elsewhere
+refused 'No rule to make target' -f pipelines/gap-room.mk BIN=bin trade-off-medium-cells
 
 # The other pipelines, once and not again.
 others=(jewelry)
