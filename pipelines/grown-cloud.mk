@@ -1,7 +1,6 @@
 # Pipelines through a cloud that make-cloud grows first. A pipeline sets NAME, OUT and SCENE and
 # includes this file, which includes media.mk.
-$(if $(and $(NAME),$(SCENE)),,$(error this file is included by pipelines: \
-  run one that sets NAME and SCENE, for example make -f pipelines/gap-room.mk))
+include $(dir $(lastword $(MAKEFILE_LIST)))guard.mk
 
 SCENE_FLAGS = -D cloud=$(abspath $(OUT))/cloud.vdb
 SCENE_INPUTS = $(OUT)/cloud.vdb

@@ -1,8 +1,7 @@
 # Pipelines through media: the methods of media-methods.mk, each of which takes part that METHODS
 # names. A pipeline sets a scene and options and includes this file, which includes rules.mk. The
 # reference is made by `all` without splitting.
-$(if $(and $(NAME),$(SCENE)),,$(error this file is included by pipelines: \
-  run one that sets NAME and SCENE, for example make -f pipelines/gap-room.mk))
+include $(dir $(lastword $(MAKEFILE_LIST)))guard.mk
 
 METHODS ?= none distance direction both all
 REFERENCE_MODE ?= illumination

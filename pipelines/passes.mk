@@ -1,8 +1,7 @@
 # Rules of the training: photons, and the cache trained on them, $(OUT)/scene.cache. Included by
 # rules.mk, which lists the variables. `training` is the stages whose time is that of the training.
 
-$(if $(and $(NAME),$(SCENE)),,$(error this file is included by pipelines: \
-  run one that sets NAME and SCENE, for example make -f pipelines/gap-room.mk))
+include $(dir $(lastword $(MAKEFILE_LIST)))guard.mk
 
 traced_lights = --count $(PHOTONS)
 traced_camera = --count 0 --paths $(PATHS)

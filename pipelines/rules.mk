@@ -51,9 +51,7 @@
 .SUFFIXES:
 .DEFAULT_GOAL := all
 
-$(if $(wildcard pipelines/rules.mk),,$(error run make in the root of the repository))
-$(if $(and $(NAME),$(SCENE)),,$(error this file is included by pipelines: \
-  run one that sets NAME and SCENE, for example make -f pipelines/gap-room.mk))
+include $(dir $(lastword $(MAKEFILE_LIST)))guard.mk
 
 ROOT := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 OUT ?= out/$(NAME)

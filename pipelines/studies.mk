@@ -13,8 +13,7 @@
 # STUDY_SPP        samples per pixel of the renders
 # UNBIASED_SPP     of the renders whose means are compared
 # UNBIASED_AGAINST image with variance that all methods are compared with, as the reference
-$(if $(and $(NAME),$(SCENE)),,$(error this file is included by pipelines: \
-  run one that sets NAME and SCENE, for example make -f pipelines/gap-room.mk))
+include $(dir $(lastword $(MAKEFILE_LIST)))guard.mk
 
 THRESHOLDS ?= 0 1 2 5 10 20 30 50 70 90
 STUDY_SPP ?= 32

@@ -12,8 +12,7 @@
 # STUDY_METHOD     method of the renders                         the last of METHODS
 # NAME_TRIED       the values, by default as below
 # SEEDS            each value is rendered with all of them
-$(if $(and $(NAME),$(SCENE)),,$(error this file is included by pipelines: \
-  run one that sets NAME and SCENE, for example make -f pipelines/gap-room.mk))
+include $(dir $(lastword $(MAKEFILE_LIST)))guard.mk
 
 STUDY_METHOD ?= $(lastword $(METHODS))
 PHOTONS_TRIED ?= 62500 125000 250000 500000 1000000 2000000 4000000 8000000
