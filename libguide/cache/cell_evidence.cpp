@@ -1,9 +1,9 @@
 #include "libguide/cache/cell_evidence.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "libguide/directional/em_batch.h"
+#include "libguide/math/saturate.h"
 
 namespace waylight {
 namespace {
@@ -13,10 +13,6 @@ constexpr float kOwnMeanSamples = 32;
 
 // However little of the light one kind has found, what it found is there.
 constexpr double kMinBalance = 1e-3;
-
-float to_float(double v) {
-  return static_cast<float>(std::min<double>(v, std::numeric_limits<float>::max()));
-}
 
 double effective(double sum, double sum2) { return sum2 > 0 ? sum * sum / sum2 : 0; }
 
@@ -75,11 +71,11 @@ float CellEvidence::factor(TracedFrom from) const {
 }
 
 float CellEvidence::irradiance(double by_photons, bool with_photons) const {
-  if (sums_.camera_looks <= 0) return to_float(by_photons);
+  if (sums_.camera_looks <= 0) return saturated(by_photons);
   const double n = with_photons ? light_samples() : 0, m = camera_samples();
   const double by_camera = sums_.camera_all / sums_.camera_looks;
-  if (n + m <= 0) return to_float(with_photons ? by_photons : by_camera);
-  return to_float((n * by_photons + m * by_camera) / (n + m));
+  if (n + m <= 0) return saturated(with_photons ? by_photons : by_camera);
+  return saturated((n * by_photons + m * by_camera) / (n + m));
 }
 
 CellEvidence CellEvidence::share(double share) const {

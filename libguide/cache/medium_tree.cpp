@@ -1,6 +1,7 @@
 #include "libguide/cache/medium_tree.h"
 
 #include "libguide/cache/medium_cell_merge.h"
+#include "libguide/math/saturate.h"
 
 namespace waylight {
 namespace {
@@ -94,9 +95,7 @@ void MediumTree::store(MediumCache& cache, const MediumCellOptions& options,
   const double now = static_cast<double>(cache.photons);
   const auto store_light = [&](const MediumTrainingCell& cell, const TrainingLight& light) {
     MediumLight record = light.record();
-    const double fluence = cell.fluence(light, now, options.min_extent) * fluence_scale;
-    record.fluence =
-        static_cast<float>(std::min<double>(fluence, std::numeric_limits<float>::max()));
+    record.fluence = saturated(cell.fluence(light, now, options.min_extent) * fluence_scale);
     record.first_component = static_cast<uint32_t>(cache.components.size());
     append(light, cache);
     return record;

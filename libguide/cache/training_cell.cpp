@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "libguide/cache/cell_moments.h"
 #include "libguide/cache/guide_cache_view.h"

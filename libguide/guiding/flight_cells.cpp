@@ -51,8 +51,8 @@ class AlikeNodes {
 
  private:
   void merge_children(size_t node) {
-    std::optional<ScatteredLight>&lower = light_[nodes_[node].child],
-    &upper = light_[nodes_[node].child + 1];
+    std::optional<ScatteredLight>& lower = light_[nodes_[node].child];
+    std::optional<ScatteredLight>& upper = light_[nodes_[node].child + 1];
     if (!lower || !upper || !alike(*lower, *upper)) return;
     pool(*lower, *upper);
     light_[node] = std::move(lower);
