@@ -89,12 +89,12 @@ void add_cache(flatbuffers::FlatBufferBuilder& builder, const CacheFile& file) {
   const auto provenance = add_provenance(builder, file.provenance);
   const fbs::Bounds bounds = waylight::to_flat(c.scene_bounds);
   fbs::FinishGuideCacheBuffer(
-      builder,
-      fbs::CreateGuideCache(
-          builder, version_of(c), provenance, &bounds, c.emitted, c.passes, c.photons, nodes, cells,
-          components, statistics, training, waylight::to_flat(c.quantity), escape_bins,
-          escape_weights, c.medium.emitted, c.medium.photons, medium.nodes, medium.cells,
-          medium.components, medium.statistics, medium.training, c.paths, sources, reaches, true));
+      builder, fbs::CreateGuideCache(
+                   builder, version_of(c), provenance, &bounds, c.emitted, c.passes, c.photons,
+                   nodes, cells, components, statistics, training, waylight::to_flat(c.quantity),
+                   escape_bins, escape_weights, c.medium.emitted, c.medium.photons, medium.nodes,
+                   medium.cells, medium.components, medium.statistics, medium.training, c.paths,
+                   sources, reaches, true, medium.focused_cells, medium.focused_lobes));
 }
 
 const fbs::GuideCache& root_of(const FileMap& map) {

@@ -26,7 +26,9 @@ size_t medium_bytes(const MediumCache& medium) {
   return medium.nodes.size() * sizeof(CacheNode) + medium.cells.size() * sizeof(MediumCell) +
          medium.components.size() * sizeof(VmfComponent) +
          medium.statistics.size() * sizeof(VmfStatistics) +
-         medium.training.size() * sizeof(MediumTraining);
+         medium.training.size() * sizeof(MediumTraining) +
+         medium.focused_cells.size() * sizeof(FocusedCell) +
+         medium.focused_lobes.size() * sizeof(FocusedLobe);
 }
 
 MediumPart add_medium(flatbuffers::FlatBufferBuilder& builder, const MediumCache& medium) {
@@ -37,6 +39,10 @@ MediumPart add_medium(flatbuffers::FlatBufferBuilder& builder, const MediumCache
         medium.training.size(),
         [&](size_t i, fbs::MediumTraining* flat) { *flat = to_flat(medium.training[i]); });
     part.statistics = add_records(builder, medium.statistics);
+  }
+  if (!medium.focused_cells.empty()) {
+    part.focused_lobes = add_records(builder, medium.focused_lobes);
+    part.focused_cells = add_records(builder, medium.focused_cells);
   }
   part.components = add_records(builder, medium.components);
   part.cells = add_records(builder, medium.cells);
@@ -49,6 +55,8 @@ MediumCacheView medium_view_of(const fbs::GuideCache& root, const std::string& p
   view.nodes = records_of<CacheNode>(root.medium_nodes(), path);
   view.cells = records_of<MediumCell>(root.medium_cells(), path);
   view.components = records_of<VmfComponent>(root.medium_components(), path);
+  view.focused_cells = records_of<FocusedCell>(root.medium_focused_cells(), path);
+  view.focused_lobes = records_of<FocusedLobe>(root.medium_focused_lobes(), path);
   return view;
 }
 
@@ -60,6 +68,8 @@ MediumCache medium_copy_of(const fbs::GuideCache& root, const std::string& path)
   medium.nodes = copy_of(view.nodes);
   medium.cells = copy_of(view.cells);
   medium.components = copy_of(view.components);
+  medium.focused_cells = copy_of(view.focused_cells);
+  medium.focused_lobes = copy_of(view.focused_lobes);
   medium.statistics = copy_of(records_of<VmfStatistics>(root.medium_statistics(), path));
   medium.training = copy_of(records_of<MediumTraining>(root.medium_training(), path));
   return medium;

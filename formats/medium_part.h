@@ -19,6 +19,8 @@ struct MediumPart {
   Records<fbs::VmfComponent> components;
   Records<fbs::VmfStatistics> statistics;
   Records<fbs::MediumTraining> training;
+  Records<fbs::FocusedCell> focused_cells;
+  Records<fbs::FocusedLobe> focused_lobes;
 };
 
 size_t medium_bytes(const MediumCache& medium);

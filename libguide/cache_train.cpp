@@ -7,7 +7,7 @@
 #include "libguide/base/stopwatch.h"
 #include "libguide/cache/escape_histogram.h"
 #include "libguide/cache/guide_cache_view.h"
-#include "libguide/cache/photon_rules.h"
+#include "libguide/cache/medium_trainer.h"
 #include "libguide/cache/refit_tree.h"
 #include "libguide/cache/training_check.h"
 
@@ -17,6 +17,9 @@ namespace {
 // Positions closer together than this share of the scene's diameter are one place: about the
 // resolution of a float coordinate at its far end.
 constexpr float kMinExtent = 1e-6f;
+
+// The distance of light from one direction, in radii of the scene.
+constexpr float kFar = 1e4f;
 
 constexpr int kMaxDirectLobes = 4;  // direct light comes from few places
 
@@ -82,9 +85,10 @@ struct CacheTrainer::Impl {
     require(!refits_, "photons come before the same photons again");
     surfaces_.consume(photons);
   }
-  void consume(std::span<const MediumPhoton> photons);
+  void consume(std::span<const MediumPhoton> photons) { media_.consume(photons); }
   void consume(std::span<const Escape> escapes);
   void refit(std::span<const Photon> photons);
+  void refit(std::span<const MediumPhoton> photons) { media_.find_foci(photons); }
   GuideCache finish(CacheTrainSummary* summary, const RunControl& control);
 
  private:
@@ -95,7 +99,6 @@ struct CacheTrainer::Impl {
   SurfaceRules surface_rules(const CacheTrainOptions& options) const;
   MediumRules medium_rules(const CacheTrainOptions& options) const;
   void finish_surfaces();
-  void finish_media();
   void summarise(CacheTrainSummary& summary) const;
 
   GuideCache cache_;             // without its cells while they are in training
@@ -103,15 +106,13 @@ struct CacheTrainer::Impl {
   double expected_photons_ = 0;  // of the whole training when it is done; 0: not known
   BlockTrainer<Photon, TrainingTree, SurfaceRules> surfaces_;
   std::optional<BlockTrainer<Photon, RefitTree, SurfaceRules>> refits_;  // once that has begun
-  BlockTrainer<MediumPhoton, MediumTree, MediumRules> media_;
+  MediumTrainer media_;
   EscapeMap escape_map_;
   EscapeHistogram escapes_;
   BlockTally escape_tally_;
   size_t cells_before_, cells_before_merging_ = 0, bytes_saved_ = 0;
-  size_t medium_cells_before_merging_ = 0;
   bool merges_alike_;
-  TrainingClock clock_, medium_clock_;
-  bool has_media_;
+  TrainingClock clock_;
   Stopwatch stopwatch_;
 };
 
@@ -126,12 +127,13 @@ CacheTrainer::Impl::Impl(const CacheTrainOptions& options, const PhotonStreamInf
   const Bounds& scene = cache_.scene_bounds;
   surfaces_ = {previous.nodes.empty() ? TrainingTree() : TrainingTree(previous),
                surface_rules(options), previous.photons};
-  media_ = {previous.medium.nodes.empty() ? MediumTree(scene) : MediumTree(previous.medium, scene),
-            medium_rules(options), previous.medium.photons};
+  media_ = {previous.medium,
+            {scene, stream.emitted, stream.media},
+            medium_rules(options),
+            options.merge_alike};
   if (goes_on) escapes_ = EscapeHistogram(previous);
   escape_map_ = EscapeMap(scene);
   cells_before_ = surfaces_.tree().size();
-  has_media_ = stream.media;
 }
 
 void CacheTrainer::Impl::start_cache(const PhotonStreamInfo& stream, const GuideCache& previous) {
@@ -146,9 +148,6 @@ void CacheTrainer::Impl::start_cache(const PhotonStreamInfo& stream, const Guide
   expected_photons_ = expected_photons(stream, previous);
   clock_.photons_before = static_cast<double>(previous.photons);
   clock_.particles_before = static_cast<double>(previous.emitted);
-  cache_.medium.emitted = previous.medium.emitted;
-  medium_clock_.photons_before = static_cast<double>(previous.medium.photons);
-  medium_clock_.particles_before = static_cast<double>(previous.medium.emitted);
 }
 
 SurfaceRules CacheTrainer::Impl::surface_rules(const CacheTrainOptions& options) const {
@@ -170,12 +169,8 @@ MediumRules CacheTrainer::Impl::medium_rules(const CacheTrainOptions& options) c
            static_cast<size_t>(options.max_cells)},
           {{options.components, options.medium_prior},
            {std::min(options.components, kMaxDirectLobes), options.medium_prior},
-           kMinExtent * 2 * scene.radius()}};
-}
-
-void CacheTrainer::Impl::consume(std::span<const MediumPhoton> photons) {
-  has_media_ |= !photons.empty();
-  media_.consume(photons);
+           kMinExtent * 2 * scene.radius(),
+           kFar * scene.radius()}};
 }
 
 void CacheTrainer::Impl::consume(std::span<const Escape> escapes) {
@@ -206,7 +201,8 @@ GuideCache CacheTrainer::Impl::finish(CacheTrainSummary* summary, const RunContr
     surfaces_.finish();
   if (control.stopped()) return {};
   finish_surfaces();
-  finish_media();
+  cache_.medium = media_.finish(control);
+  if (control.stopped()) return {};
   escapes_.store(cache_);
   if (summary) summarise(*summary);
   return std::move(cache_);
@@ -229,24 +225,6 @@ void CacheTrainer::Impl::finish_surfaces() {
   tree.store(cache_, rules, per_particle);
 }
 
-// A cache of a scene without media gets no cell of them.
-void CacheTrainer::Impl::finish_media() {
-  media_.finish();
-  MediumCache& medium = cache_.medium;
-  medium.photons = media_.photons();
-  if (has_media_) medium.emitted += emitted_;
-  if (medium.photons == 0) return;
-  medium_clock_.photons = static_cast<double>(medium.photons);
-  medium_clock_.particles = static_cast<double>(medium.emitted);
-  MediumTree& tree = media_.tree();
-  tree.restate_exposure(medium_clock_);
-  medium_cells_before_merging_ = tree.size();
-  if (merges_alike_) tree.merge_alike(media_.rules().cell, medium_clock_.photons);
-  tree.lend_mixtures();
-  tree.sort_by_place();
-  tree.store(medium, media_.rules().cell, medium_clock_.photons / medium_clock_.particles);
-}
-
 void CacheTrainer::Impl::summarise(CacheTrainSummary& summary) const {
   const BlockTally& tally = surfaces_.tally();
   summary = {};
@@ -264,8 +242,8 @@ void CacheTrainer::Impl::summarise(CacheTrainSummary& summary) const {
   summary.media.rejected = media_.tally().rejected;
   summary.media.weights_capped = media_.tally().weights_capped;
   summary.bytes = surfaces_.tree().bytes() + (refits_ ? refits_->tree().bytes() : 0);
-  summary.media.cells_before_merging = medium_cells_before_merging_;
-  if (!cache_.medium.cells.empty()) summary.media.bytes = media_.tree().bytes();
+  summary.media.cells_before_merging = media_.cells_before_merging();
+  if (!cache_.medium.cells.empty()) summary.media.bytes = media_.bytes();
   summary.seconds = stopwatch_.seconds();
 }
 
@@ -281,6 +259,7 @@ void CacheTrainer::consume(std::span<const Photon> batch) { running(impl_).consu
 void CacheTrainer::consume(std::span<const MediumPhoton> batch) { running(impl_).consume(batch); }
 void CacheTrainer::consume(std::span<const Escape> batch) { running(impl_).consume(batch); }
 void CacheTrainer::refit(std::span<const Photon> batch) { running(impl_).refit(batch); }
+void CacheTrainer::refit(std::span<const MediumPhoton> batch) { running(impl_).refit(batch); }
 
 GuideCache CacheTrainer::finish(CacheTrainSummary* summary, const RunControl& control) {
   const std::unique_ptr<Impl> impl = std::move(impl_);

@@ -44,6 +44,7 @@ struct MediumLightSummary {
 struct MediumTrainSummary {
   uint64_t photons = 0, rejected = 0, weights_capped = 0;
   size_t cells = 0, cells_before_merging = 0;  // equal where none were to be merged
+  size_t cells_with_focus = 0;                 // whose indirect light comes from places
   MediumLightSummary indirect, direct;
   size_t bytes = 0;
 };
@@ -75,10 +76,12 @@ class CacheTrainer {
   void consume(std::span<const Photon> photons);
   void consume(std::span<const MediumPhoton> photons);
   void consume(std::span<const Escape> escapes);
-  // After all of the stream, its photons of surfaces again, in any number of batches: each mixture
-  // is fitted anew to those in its cell, most of which the cells before it have learned from. (In
-  // media, where cells see more photons, it did not lower the error of images.)
+  // After all of the stream, its photons again, in any number of batches. On surfaces each mixture
+  // is fitted anew to those in its cell, most of which the cells before it have learned from. In
+  // media, where cells are wide and see more photons, that did not lower the error of images; there
+  // cells learn from which places their light comes.
   void refit(std::span<const Photon> photons);
+  void refit(std::span<const MediumPhoton> photons);
   // control: told of the second fits; where it stops them, the result is empty.
   GuideCache finish(CacheTrainSummary* summary, const RunControl& control = {});
 

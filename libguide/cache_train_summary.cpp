@@ -21,6 +21,7 @@ void CacheTrainSummary::count_cells(const GuideCache& cache) {
     lost_mass += (std::max(0.0f, 1 - cell.guided_mass) - lost_mass) / n;
   }
   media.cells = cache.medium.cells.size();
+  media.cells_with_focus = cache.medium.focused_cells.size();
   for (const MediumCell& cell : cache.medium.cells) {
     media.indirect.add(cell.indirect);
     media.direct.add(cell.direct);

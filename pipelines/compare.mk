@@ -23,7 +23,7 @@ $(if $(wildcard pipelines/rules.mk),,$(error run make in the root of the reposit
 OUT ?= out/compare
 WAYLIGHT_SCENES ?= ../shared/scenes
 there = $(if $(wildcard $(WAYLIGHT_SCENES)/$(1)),$(2))
-media_scenes := light-shafts haze lamp-behind backlit-wax smoky-room cloud \
+media_scenes := light-shafts haze lantern lamp-behind backlit-wax smoky-room cloud \
   $(call there,volumes/wdas_cloud_sixteenth.vdb,wdas-cloud)
 default_scenes := $(if $(filter undefined,$(origin SCENES)),all)
 SCENES ?= gap-room jewelry $(foreach s,veach-ajar kitchenette living-room,$(call there,$(s),$(s))) \

@@ -24,7 +24,7 @@ $(if $(wildcard pipelines/rules.mk),,$(error run make in the root of the reposit
 OUT ?= out/volume-paper
 WAYLIGHT_SCENES ?= ../shared/scenes
 made_elsewhere := $(if $(wildcard $(WAYLIGHT_SCENES)/volumes/wdas_cloud_sixteenth.vdb),wdas-cloud)
-SCENES ?= light-shafts haze lamp-behind backlit-wax smoky-room cloud $(made_elsewhere)
+SCENES ?= light-shafts haze lantern lamp-behind backlit-wax smoky-room cloud $(made_elsewhere)
 TIME ?= 180
 SEEDS ?= 1 2 3
 METHODS ?= none distance direction direction-mix both no-rr guided-rr splitting all

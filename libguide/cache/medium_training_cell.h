@@ -12,7 +12,8 @@ namespace waylight {
 
 struct MediumCellOptions {
   LobeOptions indirect, direct{4, {}};
-  float min_extent = 0;  // standard deviation below which positions are one place
+  float min_extent = 0;   // standard deviation below which positions are one place
+  float far = kInfinity;  // the distance beyond which light comes from one direction
 };
 
 // The mixture and statistics of one kind of light in a cell of a finished training.

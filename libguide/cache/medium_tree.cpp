@@ -33,6 +33,9 @@ std::deque<MediumTrainingCell> cells_of(const MediumCache& cache, const Bounds& 
   for (size_t i = 0; i < cache.cells.size(); ++i)
     cells.emplace_back(boxes[i], cache.cells[i], cache.training[i], lobes(cache.cells[i].indirect),
                        lobes(cache.cells[i].direct));
+  for (const FocusedCell& f : cache.focused_cells)
+    cells[f.cell].indirect().set_focused(
+        std::span(cache.focused_lobes).subspan(f.first_lobe, f.lobe_count));
   return cells;
 }
 
@@ -41,6 +44,15 @@ void append(const TrainingLight& light, MediumCache& cache) {
                           light.components().end());
   cache.statistics.insert(cache.statistics.end(), light.statistics().begin(),
                           light.statistics().end());
+}
+
+void append_focused(const TrainingLight& light, MediumCache& cache) {
+  if (light.focused().empty()) return;
+  cache.focused_cells.push_back({static_cast<uint32_t>(cache.cells.size() - 1),
+                                 static_cast<uint32_t>(cache.focused_lobes.size()),
+                                 static_cast<uint32_t>(light.focused().size())});
+  cache.focused_lobes.insert(cache.focused_lobes.end(), light.focused().begin(),
+                             light.focused().end());
 }
 
 using LightOf = TrainingLight& (MediumTrainingCell::*)();
@@ -88,10 +100,6 @@ void MediumTree::lend_mixtures() {
 void MediumTree::store(MediumCache& cache, const MediumCellOptions& options,
                        double fluence_scale) const {
   cache.nodes = nodes();
-  cache.cells.clear();
-  cache.training.clear();
-  cache.components.clear();
-  cache.statistics.clear();
   const double now = static_cast<double>(cache.photons);
   const auto store_light = [&](const MediumTrainingCell& cell, const TrainingLight& light) {
     MediumLight record = light.record();
@@ -105,6 +113,7 @@ void MediumTree::store(MediumCache& cache, const MediumCellOptions& options,
     cell.indirect = store_light(trained, trained.indirect());
     cell.direct = store_light(trained, trained.direct());
     cache.training.push_back(trained.training());
+    append_focused(trained.indirect(), cache);
   }
 }
 

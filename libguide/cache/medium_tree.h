@@ -31,7 +31,8 @@ class MediumTree : public CellTree<MediumTrainingCell> {
   // Kinds of light without lobes inherit those of a relative nearby.
   void lend_mixtures();
 
-  // fluence_scale: photons per emitted particle, 1/J to W of MediumTrainingCell::fluence.
+  // cache: has none yet; fluence_scale: photons per emitted particle, 1/J to W of
+  // MediumTrainingCell::fluence.
   void store(MediumCache& cache, const MediumCellOptions& options, double fluence_scale) const;
 };
 

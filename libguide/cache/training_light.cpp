@@ -3,6 +3,11 @@
 #include "libguide/directional/vmf_em_step.h"
 
 namespace waylight {
+namespace {
+
+constexpr size_t kLeastPhotons = 64;  // that foci are sought in
+
+}  // namespace
 
 std::vector<VmfComponent> VmfLobes::fit(std::span<const WeightedDirection> batch, int count,
                                         const VmfPrior& prior) {
@@ -31,10 +36,18 @@ size_t TrainingLight::receive(const Vec3& direction, float weight, const LobeOpt
 }
 
 size_t TrainingLight::update(const LobeOptions& options) {
+  focused_.clear();  // of what was learned before
   Batch batch;
   const std::span<const Pending> photons = pending();
   for (size_t i = 0; i < photons.size(); ++i) batch[i] = {photons[i].direction, photons[i].weight};
   return learn(std::span(batch).first(photons.size()), options);
+}
+
+bool TrainingLight::focus(const PhotonSample<PlacedDirection>& photons, const VmfPrior& prior,
+                          float far) {
+  if (photons.kept().size() < kLeastPhotons) return false;
+  focused_ = fit_focused_lobes(photons.kept(), components(), prior, far);
+  return !focused_.empty();
 }
 
 }  // namespace waylight

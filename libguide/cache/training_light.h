@@ -2,7 +2,8 @@
 // One kind of light in a cell of a medium while it is trained.
 
 #include "libguide/cache/online_mixture.h"
-#include "libguide/directional/vmf_em.h"
+#include "libguide/cache/photon_sample.h"
+#include "libguide/directional/focused_fit.h"
 #include "libguide/records/medium_cache.h"
 
 namespace waylight {
@@ -42,18 +43,34 @@ class TrainingLight : public OnlineMixture<VmfLobes> {
 
   void begin_with_flux(double flux) { training_.flux = flux; }
 
+  // Lobes that point to places, by photons that are all at hand: see fit_focused_lobes().
+  bool focus(const PhotonSample<PlacedDirection>& photons, const VmfPrior& prior, float far);
+  std::span<const FocusedLobe> focused() const { return focused_; }
+  void set_focused(std::span<const FocusedLobe> lobes) {
+    focused_.assign(lobes.begin(), lobes.end());
+  }
+
   // Becomes one with that of a sibling, whose evidence adds up; flux: of both.
   void unite(const TrainingLight& sibling, double flux, std::span<const VmfComponent> mixture) {
     training_.flux = flux;
     add_evidence(sibling);
     replace_mixture(mixture);
+    focused_.clear();
   }
 
-  using OnlineMixture::inherit;
-  using OnlineMixture::inherit_as_child;
+  void inherit(const TrainingLight& from, float share) {
+    OnlineMixture::inherit(from, share);
+    focused_ = from.focused_;
+  }
+  void inherit_as_child(const TrainingLight& parent, bool upper, const LobeOptions& options) {
+    OnlineMixture::inherit_as_child(parent, upper, options);
+    focused_ = parent.focused_;
+  }
 
  private:
   size_t update(const LobeOptions& options);
+
+  std::vector<FocusedLobe> focused_;  // empty where places make no difference
 };
 
 }  // namespace waylight

@@ -29,6 +29,7 @@ class VmfMixture {
   VmfComponent component(int i) const { return {weight_[i], mean(i), kappa_[i]}; }
 
  private:
+  friend class FocusedMixture;
   friend class VmfConvolution;
   friend class VmfProduct;
 

@@ -6,17 +6,18 @@
 
 namespace waylight {
 
-MediumGuide::MediumGuide(const MediumCacheView& cache, const MediumCell& cell,
-                         const PhaseLobes& phase)
-    : indirect_(cache.lobes(cell.indirect)),
-      direct_(cache.lobes(cell.direct)),
-      scattered_indirect_(indirect_, phase),
-      indirect_fluence_(cell.indirect.fluence),
-      direct_fluence_(direct_.count() > 0 ? cell.direct.fluence : 0),
-      known_(indirect_.count() > 0 && cell.indirect.fluence > 0 &&
-             cell.indirect.effective_samples >= kMinEffectiveSamples),
-      trust_(cell.indirect.effective_samples /
-             (cell.indirect.effective_samples + kHalfTrustSamples)) {}
+MediumGuide::MediumGuide(const MediumCacheView& cache, uint32_t index, const PhaseLobes& phase)
+    : indirect_(cache.lobes(cache.cells[index].indirect)),
+      direct_(cache.lobes(cache.cells[index].direct)),
+      scattered_indirect_(indirect_, phase) {
+  const MediumCell& cell = cache.cells[index];
+  indirect_fluence_ = cell.indirect.fluence;
+  direct_fluence_ = direct_.count() > 0 ? cell.direct.fluence : 0;
+  const float samples = cell.indirect.effective_samples;
+  known_ = indirect_.count() > 0 && indirect_fluence_ > 0 && samples >= kMinEffectiveSamples;
+  trust_ = samples / (samples + kHalfTrustSamples);
+  if (const auto lobes = cache.focused(index); !lobes.empty()) focused_.emplace(lobes);
+}
 
 std::vector<float> MediumGuide::scattered(const PhaseLobes& phase,
                                           const ScatteredBins& bins) const {
@@ -32,7 +33,7 @@ std::vector<float> MediumGuide::scattered(const PhaseLobes& phase,
 MediumGuides::PhaseGuides::PhaseGuides(const MediumCacheView& cache, float mean_cosine)
     : lobes(phase_lobes(mean_cosine)), bins(mean_cosine) {
   guides.reserve(cache.cells.size());
-  for (const MediumCell& cell : cache.cells) guides.emplace_back(cache, cell, lobes);
+  for (uint32_t i = 0; i < cache.cells.size(); ++i) guides.emplace_back(cache, i, lobes);
 }
 
 MediumGuides::MediumGuides(const MediumCacheView& cache, std::span<const Medium> media)

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "libguide/cache/medium_cache_view.h"
+#include "libguide/directional/focused_mixture.h"
 #include "libguide/directional/vmf_convolution.h"
 #include "libguide/guiding/flight_cells.h"
 #include "libguide/math/octahedral.h"
@@ -50,9 +52,11 @@ class ScatteredBins {
 // the path.
 class MediumGuide {
  public:
-  MediumGuide(const MediumCacheView& cache, const MediumCell& cell, const PhaseLobes& phase);
+  MediumGuide(const MediumCacheView& cache, uint32_t cell, const PhaseLobes& phase);
 
   const VmfMixture& indirect() const { return indirect_; }
+  // The indirect light as lobes that point to places, where the cell knows of any.
+  const std::optional<FocusedMixture>& focused() const { return focused_; }
   bool known() const { return known_; }   // whether the indirect light is
   float trust() const { return trust_; }  // see guiding_trust()
 
@@ -66,6 +70,11 @@ class MediumGuide {
   float scattered_indirect(const Vec3& w) const {
     return indirect_fluence_ * scattered_indirect_.pdf(w);
   }
+  // The same of light that comes as in `mixture`.
+  float scattered_indirect(const VmfMixture& mixture, const PhaseLobes& phase,
+                           const Vec3& w) const {
+    return indirect_fluence_ * VmfConvolution(mixture, phase).pdf(w);
+  }
   // The same of all light, for each bin; negative where it is not known.
   std::vector<float> scattered(const PhaseLobes& phase, const ScatteredBins& bins) const;
   // Of the fluence, what comes straight from emitters, in [0, 1].
@@ -75,6 +84,7 @@ class MediumGuide {
 
  private:
   VmfMixture indirect_, direct_;
+  std::optional<FocusedMixture> focused_;
   VmfConvolution scattered_indirect_;
   float indirect_fluence_, direct_fluence_;
   bool known_;

@@ -2,18 +2,29 @@
 
 namespace waylight {
 
-PhaseSampler::PhaseSampler(const PhaseFunction& phase, const Vec3& wo, const MediumGuide* guide,
-                           const PhaseLobes* lobes, const PhaseOptions& options)
-    : phase_(phase), forward_(-wo), guide_(guide) {
-  if (options.guide != PhaseGuide::none && guide && guide->known()) prepare(*lobes, options);
+PhaseSampler::PhaseSampler(const PhaseFunction& phase, const Vec3& wo, const Vec3& position,
+                           const MediumGuide* guide, const PhaseLobes* lobes,
+                           const PhaseOptions& options)
+    : PhaseSampler(phase, wo) {
+  if (!guide || !guide->known()) return;
+  guide_ = guide;
+  lobes_ = lobes;
+  if (guide->focused()) seen_ = guide->focused()->seen_from(position);
+  if (options.guide != PhaseGuide::none) prepare(options);
 }
 
-void PhaseSampler::prepare(const PhaseLobes& lobes, const PhaseOptions& options) {
+void PhaseSampler::prepare(const PhaseOptions& options) {
   phase_share_ = 1 - guide_->trust() * (1 - options.phase_share);
   if (options.guide != PhaseGuide::product) return;
-  about_forward_ = lobes.about(forward_);
-  product_.emplace(about_forward_, guide_->indirect());
+  about_forward_ = lobes_->about(forward_);
+  product_.emplace(about_forward_, light());
   if (!product_->valid()) phase_share_ = 1;
+}
+
+float PhaseSampler::reflected_estimate() const {
+  if (!guide_) return 0;
+  return seen_ ? guide_->scattered_indirect(*seen_, *lobes_, forward_)
+               : guide_->scattered_indirect(forward_);
 }
 
 EvalPdf PhaseSampler::evaluate(const Vec3& wi) const {
@@ -29,7 +40,7 @@ std::optional<DirectionSample> PhaseSampler::sample(Sampler& sampler) const {
   if (u < phase_share_)
     s.wi = sample_phase(phase_, forward_, u2);
   else
-    s.wi = product_ ? product_->sample(u_lobe, u2) : guide_->indirect().sample(u_lobe, u2);
+    s.wi = product_ ? product_->sample(u_lobe, u2) : light().sample(u_lobe, u2);
   const EvalPdf e = evaluate(s.wi);
   if (!(e.pdf > 0)) return std::nullopt;
   s.weight = e.value / e.pdf;

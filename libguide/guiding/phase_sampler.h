@@ -34,9 +34,11 @@ struct PhaseOptions {
 // albedo is not in it: the weight of the flight that ended here has it.
 class PhaseSampler {
  public:
-  // guide: null where there is none; lobes: of the phase function, where there is one.
-  PhaseSampler(const PhaseFunction& phase, const Vec3& wo, const MediumGuide* guide,
-               const PhaseLobes* lobes, const PhaseOptions& options);
+  // The phase function alone.
+  PhaseSampler(const PhaseFunction& phase, const Vec3& wo) : phase_(phase), forward_(-wo) {}
+  // guide: of the cell of `position`, null where there is none; lobes: of the phase function.
+  PhaseSampler(const PhaseFunction& phase, const Vec3& wo, const Vec3& position,
+               const MediumGuide* guide, const PhaseLobes* lobes, const PhaseOptions& options);
   PhaseSampler(const PhaseSampler&) = delete;
   PhaseSampler& operator=(const PhaseSampler&) = delete;
 
@@ -51,19 +53,18 @@ class PhaseSampler {
   float bsdf_share() const { return phase_share_; }
   // Luminance of the radiance scattered towards wo, of indirect light, before the albedo; 0 where
   // the cell knows too little.
-  float reflected_estimate() const {
-    return guide_ && guide_->known() ? guide_->scattered_indirect(forward_) : 0;
-  }
+  float reflected_estimate() const;
 
  private:
-  void prepare(const PhaseLobes& lobes, const PhaseOptions& options);
-  float guide_pdf(const Vec3& wi) const {
-    return product_ ? product_->pdf(wi) : guide_->indirect().pdf(wi);
-  }
+  const VmfMixture& light() const { return seen_ ? *seen_ : guide_->indirect(); }
+  void prepare(const PhaseOptions& options);
+  float guide_pdf(const Vec3& wi) const { return product_ ? product_->pdf(wi) : light().pdf(wi); }
 
   const PhaseFunction& phase_;
-  Vec3 forward_;  // -wo
-  const MediumGuide* guide_;
+  Vec3 forward_;                        // -wo
+  const MediumGuide* guide_ = nullptr;  // where it is known
+  const PhaseLobes* lobes_ = nullptr;
+  std::optional<VmfMixture> seen_;  // by lobes that point to places
   float phase_share_ = 1;
   VmfMixture about_forward_;
   std::optional<VmfProduct> product_;

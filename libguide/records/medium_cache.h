@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libguide/math/types.h"
+#include "libguide/records/focused_lobe.h"
 #include "libguide/records/vmf.h"
 #include "libguide/spatial/orientation_tree.h"
 
@@ -48,13 +49,17 @@ struct MediumTraining {
 };
 
 struct MediumCache {
-  uint64_t emitted = 0;  // particles of the streams that held photons of media
-  uint64_t photons = 0;  // of media, in all streams, refused ones included
+  uint64_t emitted = 0;          // particles of the streams that held photons of media
+  uint64_t photons = 0;          // of media, in all streams, refused ones included
   std::vector<CacheNode> nodes;  // axes 0..2 only
   std::vector<MediumCell> cells;
   std::vector<VmfComponent> components;
   std::vector<VmfStatistics> statistics;  // parallel to components, or empty
   std::vector<MediumTraining> training;   // parallel to cells, or empty
+  // Of the cells whose indirect light comes from places, by cell: what directions are guided by in
+  // place of its components.
+  std::vector<FocusedCell> focused_cells;
+  std::vector<FocusedLobe> focused_lobes;
 };
 
 }  // namespace waylight

@@ -37,7 +37,7 @@ PathRecord PathTracer::trace(const Ray& ray, const Sampler& sampler,
 PathRecord PathTracer::gather(const Vec3& p, int medium, const Sampler& sampler,
                               const PathContext& context) const {
   const PhaseFunction even = IsotropicPhase();
-  const PhaseSampler directions(even, Vec3::UnitZ(), nullptr, nullptr, {});
+  const PhaseSampler directions(even, Vec3::UnitZ());
   MediumPoint at;
   at.p = p;
   at.medium = &scene_.medium(medium);
@@ -138,7 +138,7 @@ bool PathTracer::visit(Walk& walk, State& state, const MediumPoint& at) const {
   const MediumGuides& guides = caches_.media();
   const bool asks = !guides.empty() && (options_.phases.guide != PhaseGuide::none ||
                                         options_.roulette == Roulette::guided);
-  const PhaseSampler directions(at.medium->phase(), -state.ray.direction,
+  const PhaseSampler directions(at.medium->phase(), -state.ray.direction, at.p,
                                 asks ? &guides.at(at.index, at.p) : nullptr,
                                 asks ? &guides.phase(at.index) : nullptr,
                                 options_.phases.for_medium(at.medium->homogeneous()));

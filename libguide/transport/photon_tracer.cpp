@@ -103,7 +103,7 @@ bool PhotonTracer::visit(Particle& particle, const MediumPoint& at, PhotonRecord
     ++records->counts.too_deep;
     return false;
   }
-  const PhaseSampler directions(at.medium->phase(), -particle.ray.direction, nullptr, nullptr, {});
+  const PhaseSampler directions(at.medium->phase(), -particle.ray.direction);
   const std::optional<DirectionSample> s = directions.sample(sampler);
   if (s) {
     particle.ray = {at.p, s->wi};

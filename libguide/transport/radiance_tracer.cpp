@@ -171,7 +171,7 @@ bool RadianceTracer::pass_pane(State& state, const SurfacePoint& at, const Color
 }
 
 bool RadianceTracer::visit(State& state, const MediumPoint& at) const {
-  const PhaseSampler directions(at.medium->phase(), -state.ray.direction, nullptr, nullptr, {});
+  const PhaseSampler directions(at.medium->phase(), -state.ray.direction);
   RadianceStep step;
   add_direct_light(state, at, directions, step);
   if (!survives(state, at.albedo.maxCoeff(), step)) return false;

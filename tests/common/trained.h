@@ -15,7 +15,9 @@ struct Trained {
   RenderCaches caches() const { return {&brdf, GuideCacheView(guide)}; }
 };
 
-inline Trained train(const Scene& scene, uint64_t photons, bool merge_alike = false) {
+// places: the photons of media are traced again for the places that they come from.
+inline Trained train(const Scene& scene, uint64_t photons, bool merge_alike = false,
+                     bool places = false) {
   PhotonTraceOptions trace;
   trace.count = photons;
   CacheTrainOptions options;
@@ -26,6 +28,10 @@ inline Trained train(const Scene& scene, uint64_t photons, bool merge_alike = fa
   trace_photons(
       scene, trace, [&](std::span<const Photon> batch) { trainer.consume(batch); }, {}, {}, {},
       [&](std::span<const MediumPhoton> batch) { trainer.consume(batch); });
+  if (places)
+    trace_photons(
+        scene, trace, [](std::span<const Photon>) {}, {}, {}, {},
+        [&](std::span<const MediumPhoton> batch) { trainer.refit(batch); });
   BrdfFitOptions fit;
   fit.elevations = 32;
   return {fit_brdfs(scene.description(), fit, {}).cache, trainer.finish(nullptr)};

@@ -244,6 +244,24 @@ TEST_F(Damage, CachesOfMediaThatMakeNoSenseAreNotWritten) {
            [&](VmfComponent& c) { c.mean.x() = nan; }, [&](VmfComponent& c) { c.kappa = nan; }})
     EXPECT_TRUE(
         mentions(refused_with([&](auto& m) { damage(m.components[0]); }), "valid von Mises"));
+  const std::vector<std::pair<std::function<void(MediumCache&)>, std::string>> unfocused = {
+      {[](auto& m) { m.focused_cells[0].cell = 2; }, "no cell 2"},
+      {[](auto& m) {
+         m.focused_cells.push_back({0, 0, 1});
+       },
+       "out of order"},
+      {[](auto& m) {
+         m.focused_cells.push_back({1, 0, 1});
+       },
+       "out of order"},
+      {[](auto& m) { m.focused_cells[0].lobe_count = 0; }, "0 focused lobes"},
+      {[](auto& m) { m.focused_cells[0].lobe_count = 9; }, "9 focused lobes"},
+      {[](auto& m) { m.focused_cells[0].first_lobe = 1; }, "end past the last"},
+      {[](auto& m) { m.focused_cells[0].first_lobe = ~0u; }, "end past the last"},
+      {[&](auto& m) { m.focused_lobes[1].focus.y() = nan; }, "focused lobe 1"},
+      {[](auto& m) { m.focused_lobes[0].size = 0; }, "focused lobe 0"}};
+  for (const auto& [damage, fault] : unfocused)
+    EXPECT_TRUE(mentions(refused_with(damage), fault)) << fault;
   for (const auto& damage : std::vector<std::function<void(MediumCache&)>>{
            [](MediumCache& m) { m.training.pop_back(); },
            [](MediumCache& m) { m.statistics.pop_back(); },

@@ -334,6 +334,8 @@ TEST_F(RoundTrip, CacheOfMedia) {
   expect_same_bytes(in.cells, medium.cells);
   expect_same_bytes(in.components, medium.components);
   expect_same_bytes(in.statistics, medium.statistics);
+  expect_same_bytes(in.focused_cells, medium.focused_cells);
+  expect_same_bytes(in.focused_lobes, medium.focused_lobes);
   ASSERT_EQ(in.training.size(), 2u);
   for (int i = 0; i < 2; ++i) expect_equal(in.training[i], medium.training[i]);
 }
@@ -349,6 +351,9 @@ TEST_F(RoundTrip, MappedCacheOfMedia) {
   ASSERT_EQ(view.lobes(cell->direct).size(), 2u);
   EXPECT_EQ(view.lobes(cell->direct)[1].kappa, 1e4f);
   EXPECT_TRUE(view.lobes(view.cells[1].direct).empty());
+  EXPECT_TRUE(view.focused(0).empty());
+  ASSERT_EQ(view.focused(1).size(), 2u);
+  EXPECT_EQ(view.focused(1)[0].focus, Vec3(4, -5, 6));
   EXPECT_EQ(MediumCacheView().query(Vec3::Zero()), nullptr);
 }
 

@@ -50,7 +50,7 @@ inline CacheFile small_cache() {
 }
 
 // The same with two cells of a medium, below and above z = 1: one lobe of indirect and two of
-// direct light in the first, none in the second.
+// direct light in the first, two focused lobes in the second.
 inline CacheFile medium_cache() {
   CacheFile file = small_cache();
   MediumCache& m = file.cache.medium;
@@ -62,6 +62,8 @@ inline CacheFile medium_cache() {
   m.cells.resize(2);
   m.cells[0] = {{2.5f, 60, 40, 0, 1}, {0.5f, 40, 30, 1, 2}};
   m.cells[1] = {{0.25f, 0, 0, 3, 0}, {0, 0, 0, 3, 0}};
+  m.focused_cells = {{1, 0, 2}};
+  m.focused_lobes = {{0.25f, Vec3(4, -5, 6), 0.5f}, {0.75f, Vec3(1e6f, 0, 0), 1e5f}};
   m.statistics = {{1, Vec3(0.57f, 0, 0.76f)}, {0.25f, Vec3::Zero()}, {0.75f, Vec3(0, -0.75f, 0)}};
   m.training.resize(2);
   MediumTraining& t = m.training[0];

@@ -287,7 +287,7 @@ done
 
 # Those of media, which need no fits of BRDFs.
 in_media="cache-reduce cache-train chart image-compare photon-trace render"
-others=(light-shafts haze lamp-behind backlit-wax smoky-room cloud)
+others=(light-shafts haze lantern lamp-behind backlit-wax smoky-room cloud)
 [[ -n ${WAYLIGHT_SCENES:-} ]] && others+=(wdas-cloud)
 for pipeline in "${others[@]}"; do
   once=(TIMES=0.05 METHODS='none both' PHOTONS=3000)

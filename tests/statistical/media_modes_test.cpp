@@ -45,6 +45,27 @@ SceneDescription small_cloud() {
   return scene;
 }
 
+// A lamp in a globe of glass in thin fog, and a floor.
+SceneDescription lantern() {
+  SceneDescription scene;
+  scene.media.push_back(testing::homogeneous(Color::Constant(0.15f), Color::Constant(0.95f), 0.4f));
+  const int null = testing::add_material(scene, "null", NullMaterial{});
+  const int black = testing::add_material(scene, "black", DiffuseMaterial{Texture(0.0f)});
+  const int grey = testing::add_material(scene, "grey", DiffuseMaterial{Texture(0.5f)});
+  const uint32_t fog = testing::add_shape(scene, testing::box({-2, -1, -2}, {2, 2, 2}), null);
+  scene.shapes[fog].interior_medium = 0;
+  testing::add_shape(scene, testing::box({-3, -2, -3}, {3, -1.01f, 3}), grey);
+  const Vec3 place(0.5f, 0.8f, 0);
+  const uint32_t globe = testing::add_shape(
+      scene, Sphere{place, 0.4f}, testing::add_material(scene, "glass", DielectricMaterial{}));
+  scene.shapes[globe].exterior_medium = 0;
+  testing::make_light(scene, testing::add_shape(scene, Sphere{place, 0.15f}, black),
+                      Color(60, 50, 30));
+  testing::look_along_z(scene, {0, 0.3f, -4}, 12, 8);
+  scene.integrator.max_depth = 10;
+  return scene;
+}
+
 RenderOptions options_of(DistanceMode distance, PhaseMode direction, RouletteMode roulette,
                          int split) {
   RenderOptions options;
@@ -58,9 +79,10 @@ RenderOptions options_of(DistanceMode distance, PhaseMode direction, RouletteMod
   return options;
 }
 
-void expect_equal_means(SceneDescription description, const char* name) {
+void expect_equal_means(SceneDescription description, const char* name, bool places = false) {
   const Scene scene(std::move(description));
-  const Trained trained = train(scene, 100'000);
+  const Trained trained = train(scene, 100'000, false, places);
+  EXPECT_EQ(trained.guide.medium.focused_cells.empty(), !places);
   RenderOptions plain =
       options_of(DistanceMode::standard, PhaseMode::standard, RouletteMode::throughput, 1);
   plain.spp = 4000;
@@ -87,6 +109,10 @@ TEST(SlowMediaModes, AllHaveTheMeanOfPathTracingInAFoggyRoom) {
 
 TEST(SlowMediaModes, AllHaveTheMeanOfPathTracingInACloud) {
   expect_equal_means(small_cloud(), "cloud");
+}
+
+TEST(SlowMediaModes, AllHaveTheMeanOfPathTracingWhereCellsPointToALamp) {
+  expect_equal_means(lantern(), "lantern", true);
 }
 
 TEST(SlowMediaModes, ProductSplittingAndSurfacesTogetherAreUnbiased) {

@@ -12,14 +12,14 @@ using testing::DensityCheck;
 using testing::FlightFixture;
 using testing::homogeneous;
 
-// In the cell where light comes towards -x, of vertices that the path reached in three directions.
-void expect_valid_densities(float g, const PhaseOptions& options, const std::string& name) {
-  const FlightFixture fixture({name, homogeneous(Color::Ones(), Color::Ones(), g)});
-  const MediumGuide& guide = fixture.guides.guide(0, 1);
+// Of vertices in one cell that the path reached in three directions.
+void expect_valid_densities(const FlightFixture& fixture, const MediumGuide& guide,
+                            const PhaseOptions& options, const std::string& name) {
   DensityCheck check;
   check.tests = 36;
   for (const Vec3& wo : {Vec3(0, 0, 1), Vec3(-1, 0, 0), Vec3(0.6f, 0.64f, -0.48f)}) {
-    const PhaseSampler phase(fixture.medium.phase(), wo, &guide, &fixture.guides.phase(0), options);
+    const PhaseSampler phase(fixture.medium.phase(), wo, Vec3::Zero(), &guide,
+                             &fixture.guides.phase(0), options);
     EXPECT_TRUE(phase.guided());
     testing::expect_valid_density(
         testing::Sphere{}, name,
@@ -31,14 +31,28 @@ void expect_valid_densities(float g, const PhaseOptions& options, const std::str
   }
 }
 
+// Those of the cell where light comes towards -x, by itself or from places near and far.
+void expect_valid_densities(float g, bool places) {
+  const std::string name = "g " + std::to_string(g) + (places ? " places" : "");
+  const FlightFixture fixture({name, homogeneous(Color::Ones(), Color::Ones(), g)});
+  MediumCache cache = testing::cells_along_x();
+  if (places) {
+    cache.focused_cells = {{1, 0, 2}};
+    cache.focused_lobes = {{0.7f, Vec3(0.3f, 0.4f, 0), 0.2f}, {0.3f, Vec3(1e4f, 0, 0), 3e3f}};
+  }
+  const MediumGuides guides(MediumCacheView(cache), fixture.media);
+  for (const PhaseGuide guide : {PhaseGuide::mixture, PhaseGuide::product})
+    for (const bool is_homogeneous : {true, false})
+      expect_valid_densities(fixture, guides.guide(0, 1),
+                             PhaseOptions{guide}.for_medium(is_homogeneous), name);
+}
+
 TEST(PhaseSampler, DensityIsThatOfTheSamples) {
-  for (const float g : {0.0f, 0.5f, -0.8f})
-    for (const PhaseGuide guide : {PhaseGuide::mixture, PhaseGuide::product})
-      for (const bool is_homogeneous : {true, false})
-        expect_valid_densities(g, PhaseOptions{guide}.for_medium(is_homogeneous),
-                               "g " + std::to_string(g) + " guide " +
-                                   std::to_string(static_cast<int>(guide)) +
-                                   (is_homogeneous ? " homogeneous" : " grid"));
+  for (const float g : {0.0f, 0.5f, -0.8f}) expect_valid_densities(g, false);
+}
+
+TEST(PhaseSampler, DensityIsThatOfTheSamplesWhereLightComesFromPlaces) {
+  for (const float g : {0.0f, 0.5f, -0.8f}) expect_valid_densities(g, true);
 }
 
 TEST(PhaseSampler, GridsHaveAtLeastHalfOfThePhaseFunction) {

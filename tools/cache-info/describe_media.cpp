@@ -11,7 +11,9 @@ using Json = nlohmann::ordered_json;
 // What guiding needs, in the file and in memory alike; training has more.
 double guide_bytes(const MediumCache& medium) {
   return double(medium.nodes.size() * sizeof(CacheNode) + medium.cells.size() * sizeof(MediumCell) +
-                medium.components.size() * sizeof(VmfComponent));
+                medium.components.size() * sizeof(VmfComponent) +
+                medium.focused_cells.size() * sizeof(FocusedCell) +
+                medium.focused_lobes.size() * sizeof(FocusedLobe));
 }
 
 Json describe_light(const MediumCache& medium, MediumLight MediumCell::*light) {
@@ -52,6 +54,7 @@ Json describe_media(const MediumCache& medium) {
   const Json head = {{"particles", medium.emitted},
                      {"photons", medium.photons},
                      {"cells", medium.cells.size()},
+                     {"cells_with_focus", medium.focused_cells.size()},
                      {"bytes_per_cell", guide_bytes(medium) / double(medium.cells.size())}};
   return {{"tree", head},
           {"indirect", describe_light(medium, &MediumCell::indirect)},

@@ -6,7 +6,7 @@
 #include "formats/image_io.h"
 #include "formats/photon_file.h"
 #include "libguide/base/error.h"
-#include "libguide/directional/vmf_mixture.h"
+#include "libguide/directional/focused_mixture.h"
 #include "libguide/image/picture.h"
 #include "libguide/scene/sphere_view.h"
 #include "tools/cache-info/disk_picture.h"
@@ -15,13 +15,19 @@
 namespace waylight {
 namespace {
 
+// What guides directions at a position: lobes that point to places are seen from there.
+VmfMixture indirect_at(const MediumCacheView& view, const MediumCell& cell, const Vec3& position) {
+  const auto focused = view.focused(static_cast<uint32_t>(&cell - view.cells.data()));
+  return focused.empty() ? VmfMixture(view.lobes(cell.indirect))
+                         : FocusedMixture(focused).seen_from(position);
+}
+
 // A mixture's light and its photons, on one scale.
 struct LightPictures {
   DiskPicture mixture, photons;
 };
 
-LightPictures pictures_of(std::span<const VmfComponent> lobes, int size) {
-  const VmfMixture mixture(lobes);
+LightPictures pictures_of(const VmfMixture& mixture, int size) {
   LightPictures pictures{DiskPicture(size), DiskPicture(size)};
   pictures.mixture.fill(
       [&](const Vec2& y) { return mixture.pdf(disk_to_direction(y)) * kSteradianPerDiskArea; });
@@ -56,22 +62,18 @@ void append(LightPictures& light, bool with_photons, std::vector<DiskPicture>& p
   pictures.push_back(light.photons);
 }
 
-double radiance(const MediumLight& light, std::span<const VmfComponent> lobes, const Vec3& w) {
-  return lobes.empty() ? 0.0 : light.fluence * VmfMixture(lobes).pdf(w);
-}
-
 // All light of the cell, and a picture of `render --sphere` on the same scale.
 void append_truth(const std::string& path, const MediumCacheView& view, const MediumCell& cell,
-                  std::vector<DiskPicture>& pictures) {
+                  const Vec3& position, std::vector<DiskPicture>& pictures) {
   const Bitmap image = color_of(read_image(path));
   require(image.width == image.height, "--truth \"{}\": has {} x {} pixels and should be a square",
           path, image.width, image.height);
   const SphereView sphere(Vec3::Zero(), image.width, image.height);
+  const VmfMixture indirect = indirect_at(view, cell, position), direct(view.lobes(cell.direct));
   DiskPicture light(pictures[0].size()), truth = light;
   light.fill([&](const Vec2& y) {
     const Vec3 w = disk_to_direction(y);
-    return radiance(cell.direct, view.lobes(cell.direct), w) +
-           radiance(cell.indirect, view.lobes(cell.indirect), w);
+    return cell.direct.fluence * direct.pdf(w) + cell.indirect.fluence * indirect.pdf(w);
   });
   truth.fill([&](const Vec2& y) {
     const Eigen::Vector2i pixel = sphere.pixel(y).cast<int>();
@@ -98,14 +100,16 @@ void plot_medium(const ToolRun& run, const std::string& path, const Vec3& positi
   const MediumCacheView view = cache.view().medium;
   const MediumCell* cell = view.query(position);
   require(cell != nullptr, "--plot {}: \"{}\" has no cells of media", arguments.target, path);
-  LightPictures indirect = pictures_of(view.lobes(cell->indirect), arguments.size);
-  LightPictures direct = pictures_of(view.lobes(cell->direct), arguments.size);
-  const bool with_photons = !arguments.samples.empty();
+  const bool with_photons = !arguments.samples.empty();  // which are of all places of the cell
+  LightPictures indirect = pictures_of(
+      with_photons ? VmfMixture(view.lobes(cell->indirect)) : indirect_at(view, *cell, position),
+      arguments.size);
+  LightPictures direct = pictures_of(VmfMixture(view.lobes(cell->direct)), arguments.size);
   if (with_photons) add_photons(arguments.samples, cache, cell, indirect, direct, run);
   std::vector<DiskPicture> pictures;
   append(indirect, with_photons, pictures);
   append(direct, with_photons, pictures);
-  if (!arguments.truth.empty()) append_truth(arguments.truth, view, *cell, pictures);
+  if (!arguments.truth.empty()) append_truth(arguments.truth, view, *cell, position, pictures);
   write_disks(arguments.output, pictures);
   run.print(fmt::format("{}: cell {}{}", file_name(arguments.output), cell - view.cells.data(),
                         with_photons ? ", photons on the right of each" : ""));

@@ -54,8 +54,9 @@ void refit(const PhotonReader& first, const std::string& path, CacheTrainer& tra
            const ToolRun& run) {
   PhotonReader reader(path);
   read_all(reader, run, "photons again",
-           [&](const auto& photons, const auto& /*escapes*/, const auto& /*in_media*/) {
+           [&](const auto& photons, const auto& /*escapes*/, const auto& in_media) {
              trainer.refit(photons);
+             trainer.refit(in_media);
            });
   if (reader.content_hash() != first.content_hash())
     fail("\"{}\": changed while it was read: run the training again", path);
@@ -90,6 +91,7 @@ nlohmann::ordered_json stats_of(const MediumTrainSummary& s) {
           {"weights_capped", s.weights_capped},
           {"cells", s.cells},
           {"cells_before_merging", s.cells_before_merging},
+          {"cells_with_focus", s.cells_with_focus},
           {"indirect", stats_of(s.indirect)},
           {"direct", stats_of(s.direct)},
           {"training_bytes", s.bytes}};
@@ -128,6 +130,9 @@ void report_media(const ToolRun& run, const MediumTrainSummary& s, bool merges) 
   if (merges)
     run.print(fmt::format("media: {} cells became {} where their light is the same",
                           s.cells_before_merging, s.cells));
+  if (s.cells_with_focus > 0)
+    run.print(fmt::format("media: in {} cells lobes of indirect light point to places",
+                          s.cells_with_focus));
   run.print(fmt::format("media: {:.0f} effective samples of indirect light, {:.0f} of direct; {}",
                         s.indirect.mean_effective_samples, s.direct.mean_effective_samples,
                         format_bytes(double(s.bytes))));

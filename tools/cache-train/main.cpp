@@ -14,8 +14,8 @@ mixture over the directions that light comes from, by stepwise EM. The photons a
 at the end, when all cells are known: each mixture is fitted again to its photons, at most 512 of
 them, and gets lobes for beams that few of them carry. From the standard input, and with --once,
 they are read once. Memory grows with the cells and never with the photons. In media a tree splits
-space alone; its cells learn the fluence and von Mises-Fisher lobes of direct and of indirect light,
-on the way only.
+space alone; its cells learn the fluence and von Mises-Fisher lobes of direct and of indirect light
+on the way, and the second time from which places indirect light comes.
 
 Samples of camera paths (photon-trace --paths) teach a cell like photons, each kind by its evidence.
 
