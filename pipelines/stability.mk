@@ -7,7 +7,8 @@
 #   make -f pipelines/stability.mk auto        what mode auto costs over bsdf and over the best method
 #
 # It fails when a verdict does that pipelines/stability/known does not list. Each case is a folder of
-# results; it runs again when its line in pipelines/stability/cases, its scene or a tool changes.
+# results; it runs again when its line in pipelines/stability/cases, its scene, a tool or what judges
+# it changes.
 #
 # OUT BIN          folder of results, folder of the executables
 # CASES            which, by name
@@ -28,7 +29,7 @@ BIN ?= build/bin
 LIMIT ?= 120
 table := $(STABILITY)/cases
 all_cases := $(shell awk -F'|' '!/^#/ && NF > 1 { print $$1 }' $(table))
-ifeq ($(MAKECMDGOALS),fast)
+ifneq ($(filter fast,$(MAKECMDGOALS)),)
 OUT ?= out/stability-fast
 SIZE ?= 32x18
 SPP ?= 8
@@ -97,7 +98,12 @@ $(eval $(call stamp,sizes,$(SIZE) $(SPP) $(SEEDS) $(REFERENCE_SPP) $(PHOTONS) $(
 $(eval $(call stamp,cases,$(CASES)))
 $(foreach c,$(CASES),$(eval $(call stamp,$(c),'$(shell grep -E "^$(c) +\|" $(table))')))
 
-tools := $(foreach t,brdf-fit photon-trace cache-train cache-reduce render image-compare,$(BIN)/$(t))
+tools := $(foreach t,brdf-fit photon-trace cache-train cache-reduce cache-info render image-compare,\
+  $(BIN)/$(t)) $(wildcard $(BIN)/../tests/test_stability)
+judges := $(STABILITY)/run.sh $(STABILITY)/failed.jq \
+  $(foreach s,fits renders tests,$(STABILITY)/$(s).sh $(STABILITY)/$(s).jq)
+scenes := $(addprefix $(STABILITY)/scenes/,$(sort \
+  $(shell awk -F'|' '$$4 ~ /\.xml/ { print $$4 }' $(table))))
 $(OUT)/inputs/done: $(STABILITY)/inputs.sh $(wildcard $(STABILITY)/*.awk) $(BIN)/make-cloud
 	$(STABILITY)/inputs.sh $(@D) $(BIN)
 	@touch $@
@@ -107,7 +113,7 @@ export TABLE = $(table)
 export METHODS = $(OUT)/.options/methods
 export BIN SIZE SPP SEEDS REFERENCE_SPP PHOTONS ENTRIES LIMIT TIMED CACHE_TRAIN_FLAGS
 $(OUT)/%/verdicts.json: $(OUT)/.options/% $(OUT)/.options/methods $(OUT)/.options/sizes \
-    $(OUT)/inputs/done $(wildcard $(STABILITY)/scenes/*.xml) $(tools)
+    $(OUT)/inputs/done $(scenes) $(tools) $(judges)
 	@echo "stability: $*"
 	@$(STABILITY)/run.sh $* $(OUT)/$*
 

@@ -28,7 +28,8 @@ def harm($m; $b): cost_of($m) as $c | cost_of($b) as $d
 # Three colours of a tile may go together, so chance is that of as many tiles.
 def unbiased($m): $m[0].z.tiles as $t | $m[1].z.tiles as $image
   | (3 * most_by_chance($t.count / 3 | floor; 0.0027)) as $allowed
-  | if $t.beyond3 > $allowed then "\($t.beyond3) of \($t.count) > 3σ"
+  | if $t.unexplained > 0 then "\($t.unexplained) scores without noise"
+    elif $t.beyond3 > $allowed then "\($t.beyond3) of \($t.count) > 3σ"
     elif $image.largest > 4 then "image \($image.largest | digits(1))σ"
     elif ($m[0].mean_ratio // 1 | . - 1 | fabs) > 1e-4 and $image.count == 0 then "image differs"
     else "pass" end;
@@ -48,22 +49,19 @@ def harmless($h): if $h == null then "-"
     then "×\($h.ratio | digits(2)) ± \($h.error | digits(2))"
   else "pass" end;
 
-{case: $case, row: $row, set: $set, method: $method} +
-if $failed != "" then {verdict: $failed, unbiased: "-", finite: "-", bounded: $failed, harmless: "-"}
-else
-  $of[0] as $m | $base[0] as $b
-  | (if $timed == 0 or $b == null or $method == "bsdf" then null else harm($m; $b) end) as $h
-  | {unbiased: unbiased($m), finite: finite($m), bounded: bounded($m), harmless: harmless($h)}
-  | {verdict: ([.finite, .bounded, .unbiased, .harmless] | map(select(. != "pass" and . != "-"))
-               | if . == [] then "pass" else join("; ") end)} + .
-  + {cost_ratio: ($h.ratio // "" | if . == "" then . else digits(3) end),
-     cost_error: ($h.error // "" | if . == "" then . else digits(3) end),
-     tiles: $m[0].z.tiles.count, beyond3: $m[0].z.tiles.beyond3,
-     allowed3: (3 * most_by_chance($m[0].z.tiles.count / 3 | floor; 0.0027)),
-     image_z: ($m[1].z.tiles.largest | digits(2)), mean_ratio: ($m[0].mean_ratio // 1 | digits(4)),
-     relmse: ($m[0].relmse_of_each | mean), invalid: ($m[3:] | map(.invalid_samples) | add),
-     path_length: (worst($m; .mean_path_length) | digits(2)),
-     copies: (worst($m; .copies_per_path) | digits(3)),
-     memory_mb: (worst($m; .peak_memory_bytes) / 1e6 | round),
-     cpu_seconds: ($m[3:] | map(.cpu_seconds) | mean)}
-end
+$of[0] as $m | $base[0] as $b
+| (if $timed == 0 or $b == null or $method == "bsdf" then null else harm($m; $b) end) as $h
+| {unbiased: unbiased($m), finite: finite($m), bounded: bounded($m), harmless: harmless($h)}
+| {case: $case, row: $row, set: $set, method: $method,
+   verdict: ([.finite, .bounded, .unbiased, .harmless] | map(select(. != "pass" and . != "-"))
+             | if . == [] then "pass" else join("; ") end)} + .
++ {cost_ratio: ($h.ratio // "" | if . == "" then . else digits(3) end),
+   cost_error: ($h.error // "" | if . == "" then . else digits(3) end),
+   tiles: $m[0].z.tiles.count, beyond3: $m[0].z.tiles.beyond3,
+   allowed3: (3 * most_by_chance($m[0].z.tiles.count / 3 | floor; 0.0027)),
+   image_z: ($m[1].z.tiles.largest | digits(2)), mean_ratio: ($m[0].mean_ratio // 1 | digits(4)),
+   relmse: ($m[0].relmse_of_each | mean), invalid: ($m[3:] | map(.invalid_samples) | add),
+   path_length: (worst($m; .mean_path_length) | digits(2)),
+   copies: (worst($m; .copies_per_path) | digits(3)),
+   memory_mb: (worst($m; .peak_memory_bytes) / 1e6 | round),
+   cpu_seconds: ($m[3:] | map(.cpu_seconds) | mean)}

@@ -42,21 +42,23 @@ render_all() {
   done
 }
 
-# compare METHOD TILE FLOOR: the mean of all seeds.
+# compare WHAT TILE FLOOR: the mean of all seeds of the method, to METHOD.WHAT.json.
 compare() {
-  local repeats=()
-  for ((seed = 2; seed <= SEEDS; ++seed)); do repeats+=(--repeat "$folder/$1-$seed.exr"); done
-  "$BIN/image-compare" "$folder/$1-1.exr" "$folder/reference.exr" "${repeats[@]}" --z self \
-    --tile "$2" --z-floor "$3" --json 2>> "$folder/log"
+  local repeats=() output=$folder/$method.$1.json
+  for ((seed = 2; seed <= SEEDS; ++seed)); do repeats+=(--repeat "$folder/$method-$seed.exr"); done
+  attempt "$method" "$BIN/image-compare" "$folder/$method-1.exr" "$folder/reference.exr" \
+    "${repeats[@]}" --z self --tile "$2" --z-floor "$3" --json
 }
 
+# Figures of the method, or null where it failed; nothing can be judged without the reference.
 figures() {
-  [[ -e $folder/$method.failed ]] && { echo null; return; }
-  {
-    compare "$method" 8 0.01
-    compare "$method" 4096 0
-    cat "$folder/reference.json" "$folder/$method"-[0-9]*.json
-  } | jq -s .
+  [[ -e $folder/reference.failed ]] && cat "$folder/reference.failed" >> "$folder/$method.failed"
+  if [[ ! -e $folder/$method.failed ]] && compare tiles 8 0.01 && compare image 4096 0; then
+    cat "$folder/$method".{tiles,image}.json "$folder/reference.json" "$folder/$method"-[0-9]*.json |
+      jq -s .
+  else
+    echo null
+  fi
 }
 
 judge_method() {

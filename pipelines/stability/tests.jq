@@ -1,4 +1,3 @@
-# Verdicts on a case of the test suite.
-(if $failed == "" then "pass" else $failed end) as $verdict
-| {case: $case, row: $row, set: $set, method: $method, verdict: $verdict, cell: $verdict,
-   unbiased: "-", finite: $verdict, bounded: $verdict, harmless: "-"}
+# Verdicts on a case of the test suite that passes; run.sh has those that fail.
+{case: $case, row: $row, set: $set, method: $method, verdict: "pass",
+ unbiased: "-", finite: "pass", bounded: "pass", harmless: "-"}
