@@ -11,6 +11,7 @@
 # scene.cache, training.csv, and photon-trace.json and cache-train.json with the time of all passes;
 # that of the small renders counts as training.
 set -euo pipefail
+shopt -s inherit_errexit  # the renders of a probe run in a substitution
 folder=$1 seconds=$2
 shift 2
 photons=${FIRST_PHOTONS:-125000} most=${MOST_PHOTONS:-64000000}
@@ -20,6 +21,9 @@ mkdir -p "$work"
 
 number() { jq -r ".$2" "$1"; }
 calculate() { awk "BEGIN { printf \"%.6g\", ($*) }"; }
+
+# statistics PASS-FILE FILTER FILE: FILE is made anew, since it may be a link to that of another folder.
+statistics() { jq "$2" "$1" > "$work/statistics" && mv "$work/statistics" "$folder/$3"; }
 
 # What a pass traces: photons, a quarter as many camera paths guided by the pass before, or both.
 traced() {
@@ -46,10 +50,11 @@ train_pass() {
 # The error without the worst pixels times the seconds that it took: less is better.
 probe() {
   local i
+  rm -f "$work"/probe*
   for i in 1 2; do
     ${LAUNCH:-} "$BIN/render" "${scene[@]}" -o "$work/probe-$i.exr" --mode illumination --bsdf-share 0.5 \
       --cache "$work/pass-$pass.cache" --spp 4 --size "$SIZE" --seed "$((SEED + i))" \
-      --stats "$work/probe-$i.json" --quiet 2> /dev/null
+      --stats "$work/probe-$i.json" --quiet
   done
   ${LAUNCH:-} "$BIN/image-compare" "$work/probe-1.exr" "$work/probe-2.exr" --json > "$work/probe.json"
   calculate "$(number "$work/probe.json" relmse_trimmed) * \
@@ -76,10 +81,9 @@ for ((pass = 1; ; ++pass, photons *= 2)); do
   break
 done
 
-jq ".seconds = $tracing | .emitted = $emitted | .stored = $stored | .paths = $paths |
-  .samples = $samples" "$work/photons-$pass.json" \
-  > "$folder/photon-trace.json"
-jq ".seconds = $training" "$work/train-$pass.json" > "$folder/cache-train.json"
+statistics "$work/photons-$pass.json" ".seconds = $tracing | .emitted = $emitted | .stored = $stored |
+  .paths = $paths | .samples = $samples" photon-trace.json
+statistics "$work/train-$pass.json" ".seconds = $training" cache-train.json
 mv "$work/training.csv" "$folder/training.csv"
 mv "$work/pass-$pass.cache" "$folder/scene.cache"
 rm -r "$work"
