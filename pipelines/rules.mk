@@ -181,9 +181,11 @@ images: $(renders:=.exr) $(renders:=.json)
 $(OUT)/$(NAME).csv: $(figures) $(OUT)/.options/chart
 	@awk 'FNR > 1 || NR == 1' $(figures) > $@.tmp && mv $@.tmp $@
 
-# What was modelled, what it cost, and what it bought.
-$(OUT)/summary.txt: $(OUT)/$(NAME).csv
-	@$(ROOT)/tables/summary.sh $(OUT) $< > $@.tmp && mv $@.tmp $@ && cat $@
+# What was modelled, what it cost, and what it bought. Other runs may have left statistics too.
+stages = $(foreach s,brdf-fit $(training) cache-reduce-brdf cache-reduce-cache,$(if \
+  $(filter $(OUT)/$(s).json,$(foreach m,$(needs),$(preprocess_$(m)))),$(s)))
+$(OUT)/summary.txt: $(OUT)/$(NAME).csv $(ROOT)/tables/summary.sh
+	@$(ROOT)/tables/summary.sh $(OUT) $< $(stages) > $@.tmp && mv $@.tmp $@ && cat $@
 
 $(OUT)/$(NAME).svg: $(OUT)/$(NAME).csv $(BIN)/chart
 	$(LAUNCH) $(BIN)/chart $< -o $@ --title "$(NAME)" $(QUIET)

@@ -1,6 +1,7 @@
 # After figures.awk: what mode auto keeps of its promises, per scene. Its error at equal time over
 # that of the first method, which should be at most 1.05, and over that of the best of all fixed
 # ones, at most 1.10; both also without the worst pixels.
+function share(of, over) { return of > 0 && over > 0 ? sprintf("%.3f", of / over) : "below the noise" }
 function error(key, kind) { return (kind == "all" ? relmse[key] : trimmed[key]) / seeds[key] }
 function best(scene, kind,   m, key, least) {
   for (m = 1; m <= method_count[scene]; ++m) {
@@ -24,8 +25,8 @@ END {
       base = scene SUBSEP methods[scene, 1]
       least = best(scene, kind)
       split(least, name, SUBSEP)
-      printf " %.3f | %.3f | %s |", error(auto, kind) / error(base, kind), \
-             error(auto, kind) / error(least, kind), name[2]
+      printf " %s | %s | %s |", share(error(auto, kind), error(base, kind)), \
+             share(error(auto, kind), error(least, kind)), name[2]
     }
     print ""
   }

@@ -1,7 +1,7 @@
 # Table of a comparison, Markdown, from the tables of `image-compare --csv`.
 #   awk -f figures.awk -f equal-time.awk [-v base=bsdf] [-v other=illumination] TABLE.csv...
 # "base ÷" says how many times smaller the relMSE is than that of `base` at equal rendering time;
-# "with preprocessing" the same at equal total time.
+# "with preprocessing" the same at equal total time, of which both take their preprocessing.
 BEGIN { if (!base) base = "bsdf"; if (!other) other = "illumination" }
 END {
   printf "| scene | method | seeds | seconds | preprocessing | spp | MSE | relMSE | trimmed |"
@@ -15,6 +15,6 @@ END {
         mse[key] / n, relmse[key] / n, trimmed[key] / n,
         ratio(mean_relmse(scenes[s] SUBSEP base), mean_relmse(key)),
         ratio(mean_relmse(scenes[s] SUBSEP other), mean_relmse(key)),
-        ratio(mean_relmse(scenes[s] SUBSEP base), at_total_time(key))
+        ratio(at_total_time(scenes[s] SUBSEP base), at_total_time(key))
     }
 }

@@ -3,7 +3,7 @@
 #     -v minutes=45 TABLE.csv...
 # wanted: methods, of which the first is compared with; talk: SPP:relMSE of each, or - where it has none.
 # "÷" says how many times smaller the relMSE is than that of the first method at equal rendering
-# time; "with training" the same at equal total time.
+# time; "with training" the same at equal total time, of which both take their training.
 function talk_row(i,  figures, base) {
   if (split(quoted[i], figures, ":") < 2) return
   split(quoted[1], base, ":")
@@ -11,12 +11,12 @@ function talk_row(i,  figures, base) {
     figures[2], ratio(base[2], figures[2])
 }
 function row(scene, i,  key, base, n) {
-  key = scene SUBSEP shown[i]; base = mean_relmse(scene SUBSEP shown[1])
+  key = scene SUBSEP shown[i]; base = scene SUBSEP shown[1]
   if (!(key in seeds)) return
   n = seeds[key]
   printf "| %s | %s | %d | %.0f | %.0f | %.0f | %.3g | %.3g | %s | %s |\n", scene, shown[i], n,
     time[key] / n, before[key] / n, spp[key] / n, relmse[key] / n, trimmed[key] / n,
-    ratio(base, mean_relmse(key)), ratio(base, at_total_time(key))
+    ratio(mean_relmse(base), mean_relmse(key)), ratio(at_total_time(base), at_total_time(key))
 }
 END {
   count = split(wanted, shown, " "); split(talk, quoted, " ")
