@@ -2,7 +2,7 @@
 
 #include "tools/common/gnuplot.h"
 
-#include <gtest/gtest.h>
+#include "formats/temporary_files.h"
 
 namespace waylight {
 namespace {
@@ -18,6 +18,19 @@ TEST(Gnuplot, LabelsEndNeitherTheirQuotesNorTheirData) {
       "1 2 2 2 \"x EOD system('touch /tmp/p')  $line0 << EOD '8 'lobes'\"\n"
       "EOD\n";
   EXPECT_NE(script.find(expected), script.npos) << script;
+}
+
+TEST(Gnuplot, RangesThatHaveNoEndAreRefused) {
+  constexpr double kLargest = 1.79e308;
+  for (const double low : {1.0, kLargest})
+    for (const char* linear : {"", "xy"}) {
+      const ChartLine line{"method", {{1, low, low, kLargest, 1, ""}}};
+      ChartOptions options;
+      options.linear = linear;
+      const std::string error =
+          testing::error_of([&] { gnuplot_script(options, {line}, ChartFormat::svg, "out.svg"); });
+      EXPECT_TRUE(testing::mentions(error, "of the y axis are too")) << low << linear << error;
+    }
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace waylight {
 void chart(const ToolRun& run, const ChartOptions& given) {
   given.validate();
   const ChartOptions options = with_columns_of_table(given);
-  const std::vector<ChartLine> lines = chart_lines(options);
+  const std::vector<ChartLine> lines = chart_lines(options, run.control);
   const auto draw = [&](ChartFormat format, const std::string& path) {
     write_atomically(path, [&](const std::string& temporary) {
       run_gnuplot(gnuplot_script(options, lines, format, temporary));

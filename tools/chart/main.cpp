@@ -13,8 +13,9 @@ constexpr ToolInfo kTool = {
     "chart", "Draws tables of figures: error over time, one line per method",
     "TABLES.csv... -o OUT.svg",
     R"(Tables are those of `image-compare --csv`, or any with a heading: --x, --y and --lines name columns.
-Rows of one line and x (several seeds) become one point, their geometric mean, and a band from the
-smallest to the largest. The dashed line has slope -1: the error of an unbiased method falls along it.
+Rows of one line and x (several seeds) become one point, their mean, and a band from the smallest to
+the largest. The dashed line has slope -1: the squared error of an unbiased method falls along it with
+the time of rendering. Rows that logarithmic axes cannot show are left out with a warning.
 Tables of `render --segments` become the share of the luminance over the number of path edges.
 
 Examples:

@@ -1,7 +1,6 @@
 #include "tools/common/chart_data.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "libguide/base/error.h"
@@ -15,15 +14,17 @@ constexpr double kEqualSeconds = 0.05;  // relative
 struct Row {
   std::string scene, method, label;
   double x, y;
+  double shared;  // x before preprocessing is added, by which rows are told to be of one point
 };
 
-double coordinate_in(const std::string& cell, bool linear, const std::string& what) {
-  const double value = number_in(cell, what);
-  if (!linear && !(value > 0)) fail("{} is {}, which a logarithmic axis cannot show", what, cell);
-  return value;
+bool can_be_shown(const Row& row, const ChartOptions& options) {
+  return (options.is_linear('x') || row.x > 0) && (options.is_linear('y') || row.y > 0);
 }
 
-void read_rows(const std::string& path, const ChartOptions& options, std::vector<Row>& rows) {
+// Rows that cannot be shown are left out with a warning: errors without the noise of the reference
+// can be negative, and one of them is no reason to show nothing.
+void read_rows(const std::string& path, const ChartOptions& options, const RunControl& control,
+               std::vector<Row>& rows) {
   const CsvTable table = read_csv(path);
   const int x = column_of(table, options.x, path), y = column_of(table, options.y, path);
   const int method = column_of(table, options.lines, path), scene = table.find("scene");
@@ -34,30 +35,35 @@ void read_rows(const std::string& path, const ChartOptions& options, std::vector
     const auto what = [&](const std::string& column) {
       return fmt::format("\"{}\": record {}: {}", path, i + 2, column);
     };
-    Row row{scene < 0 ? "" : cells[scene], cells[method], label < 0 ? "" : cells[label],
-            coordinate_in(cells[x], options.is_linear('x'), what(options.x)),
-            coordinate_in(cells[y], options.is_linear('y'), what(options.y))};
+    Row row{scene < 0 ? "" : cells[scene],        cells[method],
+            label < 0 ? "" : cells[label],        number_in(cells[x], what(options.x)),
+            number_in(cells[y], what(options.y)), 0};
+    row.shared = row.x;
+    if (!can_be_shown(row, options)) {
+      control.warn(fmt::format("{} {}, {} {} cannot be shown on a logarithmic axis and is left out",
+                               what(options.x), cells[x], options.y, cells[y]));
+      continue;
+    }
     if (preprocess >= 0 && !cells[preprocess].empty())
       row.x += number_in(cells[preprocess], what("preprocess_seconds"));
     rows.push_back(std::move(row));
   }
 }
 
-// The geometric mean of y, or on a linear axis the arithmetic one.
-ChartPoint merge(const Row* first, const Row* last, bool linear_y) {
-  ChartPoint point{first->x, 0, first->y, first->y, static_cast<int>(last - first), first->label};
-  for (const Row* row = first; row != last; ++row) {
-    point.y += (linear_y ? row->y : std::log(row->y)) / point.rows;
+ChartPoint merge(const Row* first, const Row* last) {
+  ChartPoint point{first->x,    first->y, first->y, first->y, static_cast<int>(last - first),
+                   first->label};
+  for (const Row* row = first + 1; row != last; ++row) {
+    point.x += (row->x - first->x) / point.rows;
+    point.y += (row->y - first->y) / point.rows;
     point.low = std::min(point.low, row->y);
     point.high = std::max(point.high, row->y);
   }
-  if (!linear_y) point.y = std::exp(point.y);
-  for (const Row* row = first + 1; row != last; ++row) point.x += (row->x - first->x) / point.rows;
   return point;
 }
 
 // Points with labels are those of a choice: one for each label, in the order of the table.
-std::vector<ChartPoint> merge_labels(const std::vector<Row>& rows, bool linear_y) {
+std::vector<ChartPoint> merge_labels(const std::vector<Row>& rows) {
   std::vector<std::vector<Row>> groups;
   for (const Row& row : rows) {
     const auto group = std::find_if(groups.begin(), groups.end(),
@@ -66,17 +72,20 @@ std::vector<ChartPoint> merge_labels(const std::vector<Row>& rows, bool linear_y
   }
   std::vector<ChartPoint> points;
   for (const std::vector<Row>& group : groups)
-    points.push_back(merge(group.data(), group.data() + group.size(), linear_y));
+    points.push_back(merge(group.data(), group.data() + group.size()));
   return points;
 }
 
-std::vector<ChartPoint> merge_equal(std::vector<Row> rows, double tolerance, bool linear_y) {
-  std::stable_sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) { return a.x < b.x; });
+std::vector<ChartPoint> merge_equal(std::vector<Row> rows, double tolerance) {
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row& a, const Row& b) { return a.shared < b.shared; });
   std::vector<ChartPoint> points;
   for (size_t begin = 0; begin < rows.size();) {
     size_t end = begin + 1;
-    while (end < rows.size() && rows[end].x - rows[begin].x <= rows[begin].x * tolerance) ++end;
-    points.push_back(merge(&rows[begin], &rows[begin] + (end - begin), linear_y));
+    while (end < rows.size() &&
+           rows[end].shared - rows[begin].shared <= rows[begin].shared * tolerance)
+      ++end;
+    points.push_back(merge(&rows[begin], &rows[begin] + (end - begin)));
     begin = end;
   }
   return points;
@@ -106,9 +115,9 @@ ChartOptions with_columns_of_table(const ChartOptions& options) {
   return result;
 }
 
-std::vector<ChartLine> chart_lines(const ChartOptions& options) {
+std::vector<ChartLine> chart_lines(const ChartOptions& options, const RunControl& control) {
   std::vector<Row> rows;
-  for (const std::string& path : options.tables) read_rows(path, options, rows);
+  for (const std::string& path : options.tables) read_rows(path, options, control, rows);
   if (rows.empty()) fail("\"{}\": there are no rows to show", options.tables[0]);
   std::set<std::string> scenes;
   for (const Row& row : rows) scenes.insert(row.scene);
@@ -125,11 +134,10 @@ std::vector<ChartLine> chart_lines(const ChartOptions& options) {
     groups[group].push_back(row);
   }
   const double tolerance = options.x.ends_with("seconds") ? kEqualSeconds : 0;
-  const bool linear_y = options.is_linear('y');
   std::vector<ChartLine> lines;
   for (size_t i = 0; i < names.size(); ++i)
-    lines.push_back({names[i], options.labels.empty() ? merge_equal(groups[i], tolerance, linear_y)
-                                                      : merge_labels(groups[i], linear_y)});
+    lines.push_back({names[i], options.labels.empty() ? merge_equal(groups[i], tolerance)
+                                                      : merge_labels(groups[i])});
   if (options.bars)
     for (ChartLine& line : lines) line.points = {line.points.back()};
   return lines;

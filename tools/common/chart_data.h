@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "libguide/base/run_control.h"
+
 namespace waylight {
 
 struct ChartOptions {
@@ -22,9 +24,12 @@ struct ChartOptions {
   bool is_linear(char axis) const {
     return (bars && axis == 'y') || linear.find(axis) != std::string::npos;
   }
-  // Whether an unbiased method's error falls with slope -1 in this chart.
+  // Whether an unbiased method's error falls with slope -1 in this chart: squared errors do, with
+  // the time of rendering alone.
   bool has_slope() const {
-    return !bars && linear.empty() && (x == "seconds" || x == "cpu_seconds" || x == "spp");
+    const bool squared = y == "mse" || y == "relmse" || y == "relmse_trimmed";
+    return !bars && !preprocess && linear.empty() && squared &&
+           (x == "seconds" || x == "cpu_seconds" || x == "spp");
   }
 };
 
@@ -32,7 +37,7 @@ struct ChartOptions {
 // one of `render --segments` and neither --x nor --y says otherwise.
 ChartOptions with_columns_of_table(const ChartOptions& options);
 
-// Rows that share line and x: the geometric mean of y, and its range over seeds.
+// Rows that share line and x: the means, and the range of y over seeds.
 struct ChartPoint {
   double x = 0, y = 0, low = 0, high = 0;
   int rows = 0;
@@ -45,9 +50,10 @@ struct ChartLine {
 };
 
 // Lines in the order in which they appear. Renders that are limited by time end a little late, so
-// seconds within 5 % of each other count as equal; other columns have to be equal. Where points
-// have labels, rows with one label are a point. Throws Error naming file and row for a column that
-// is missing and for values that logarithmic axes cannot show.
-std::vector<ChartLine> chart_lines(const ChartOptions& options);
+// seconds within 5 % of each other count as equal, before preprocessing is added; other columns
+// have to be equal. Where points have labels, rows with one label are a point. Rows that
+// logarithmic axes cannot show are left out with a warning. Throws Error naming file and row for a
+// column that is missing and for cells that are no numbers.
+std::vector<ChartLine> chart_lines(const ChartOptions& options, const RunControl& control);
 
 }  // namespace waylight

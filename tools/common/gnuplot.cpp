@@ -59,9 +59,15 @@ std::string in_data(std::string label) {
 std::string axis_commands(char axis, const Range& values, bool linear) {
   if (linear) {
     const Range range = values.padded_linear();
+    if (!std::isfinite(range.low) || !std::isfinite(range.high))
+      fail("values from {:g} to {:g} of the {} axis are too large to show", values.low, values.high,
+           axis);
     return fmt::format("set {}range [{:.9g}:{:.9g}]\n", axis, range.low, range.high);
   }
   const Range range = values.padded();
+  if (!std::isfinite(range.high) || !(range.low > 0))
+    fail("values from {:g} to {:g} of the {} axis are too far apart or too large to show",
+         values.low, values.high, axis);
   std::string ticks;
   for (double tick : logarithmic_ticks(range.low, range.high))
     ticks += fmt::format("{}'{:g}' {:.9g}", ticks.empty() ? "" : ", ", tick, tick);

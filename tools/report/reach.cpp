@@ -16,7 +16,9 @@ double error_at_end(const Method& method, Field error) {
 }
 
 double time_at(const Method& method, Field error, double target, bool* beyond = nullptr) {
-  return cross(line_of(method, error, seconds_of).points, target, beyond);
+  std::vector<ChartPoint> points = line_of(method, error, seconds_of).points;
+  std::erase_if(points, [](const ChartPoint& p) { return !(p.x > 0); });  // below the noise
+  return cross(points, target, beyond);
 }
 
 // 0 where the table has no trimmed errors.
@@ -45,9 +47,11 @@ Reach reach_of(const Method& method, double target) {
 }  // namespace
 
 double cross(const std::vector<ChartPoint>& line, double x, bool* beyond) {
-  for (size_t i = 0; i + 1 < line.size(); ++i) {
-    const ChartPoint &a = line[i], &b = line[i + 1];
-    if ((a.x - x) * (b.x - x) > 0 || a.x == b.x) continue;
+  for (size_t i = line.size(); i-- > 0;) {
+    const ChartPoint& b = line[i];
+    if (b.x == x) return b.y;
+    const ChartPoint& a = line[i > 0 ? i - 1 : i];
+    if ((a.x - x) * (b.x - x) >= 0) continue;
     return a.y * std::pow(b.y / a.y, std::log(x / a.x) / std::log(b.x / a.x));
   }
   const auto distance = [&](const ChartPoint& p) { return std::abs(std::log(p.x / x)); };

@@ -7,7 +7,7 @@ namespace waylight {
 
 struct Reach {
   std::string scene, method;
-  double target = 0;              // relMSE of the first method at its end, geometric mean of seeds
+  double target = 0;              // relMSE of the first method at its end, mean of seeds
   double seconds = 0;             // of rendering
   double low = 0, high = 0;       // over seeds
   double preprocess_seconds = 0;  // in addition
@@ -19,8 +19,9 @@ struct Reach {
 
 std::vector<Reach> reach_table(const SceneRuns& scene);
 
-// y where the line, straight between points on logarithmic axes, first crosses x; beyond its nearer
-// end along slope -1. The points need not rise in x.
+// y where the line, straight between points on logarithmic axes, last crosses x, so that a line
+// that meets x and leaves it again is not there yet; beyond its nearer end along slope -1. The
+// points need not rise in x.
 double cross(const std::vector<ChartPoint>& line, double x, bool* beyond = nullptr);
 
 }  // namespace waylight

@@ -24,6 +24,12 @@ class RowReader {
  public:
   RowReader(const CsvTable& table, const std::string& path) : table_(table), path_(path) {}
 
+  // What the noise of the reference, taken out, can leave of an error.
+  bool below_noise(size_t index) const { return !(number(index, "relmse") > 0); }
+  std::string what(size_t index, const char* column) const {
+    return fmt::format("\"{}\": record {}: {}", path_, index + 2, column);
+  }
+
   Checkpoint read(size_t index) const {
     Checkpoint c;
     c.scene = text(index, "scene");
@@ -31,7 +37,7 @@ class RowReader {
     c.seed = optional_text(index, "seed");
     c.seconds = positive(index, "seconds");
     c.spp = positive(index, "spp");
-    c.relmse = positive(index, "relmse");
+    c.relmse = number(index, "relmse");
     c.relmse_trimmed = optional(index, "relmse_trimmed");
     c.preprocess_seconds = optional(index, "preprocess_seconds");
     c.sample_ms = optional(index, "sample_ms");
@@ -50,9 +56,6 @@ class RowReader {
   std::string text(size_t index, const char* column) const {
     return table_.rows[index][column_of(table_, column, path_)];
   }
-  std::string what(size_t index, const char* column) const {
-    return fmt::format("\"{}\": record {}: {}", path_, index + 2, column);
-  }
   std::string optional_text(size_t index, const char* column) const {
     const int found = table_.find(column);
     return found < 0 ? "" : table_.rows[index][found];
@@ -61,8 +64,11 @@ class RowReader {
     const std::string cell = optional_text(index, column);
     return cell.empty() ? 0 : number_in(cell, what(index, column));
   }
+  double number(size_t index, const char* column) const {
+    return number_in(text(index, column), what(index, column));
+  }
   double positive(size_t index, const char* column) const {
-    const double value = number_in(text(index, column), what(index, column));
+    const double value = number(index, column);
     if (!(value > 0)) fail("{} is not above 0", what(index, column));
     return value;
   }
@@ -176,15 +182,13 @@ void put_first(SceneRuns& scene, const std::string& base) {
 ChartPoint mean_at(const Method& method, size_t checkpoint, Field x, Field y) {
   ChartPoint point{0, 0, INFINITY, 0, 0, ""};
   for (const Run& run : method.seeds) {
-    point.x += std::log(x(run[checkpoint])) / static_cast<double>(method.seeds.size());
+    point.x += x(run[checkpoint]) / static_cast<double>(method.seeds.size());
     const double value = y(run[checkpoint]);
-    point.y += std::log(value) / static_cast<double>(method.seeds.size());
+    point.y += value / static_cast<double>(method.seeds.size());
     point.low = std::min(point.low, value);
     point.high = std::max(point.high, value);
     ++point.rows;
   }
-  point.x = std::exp(point.x);
-  point.y = std::exp(point.y);
   return point;
 }
 
@@ -197,7 +201,10 @@ std::vector<SceneRuns> read_runs(const std::vector<std::string>& tables, const s
     const CsvTable table = read_csv(path);
     const RowReader reader(table, path);
     for (size_t i = 0; i < table.rows.size(); ++i)
-      add(scenes, reader.read(i), fmt::format("\"{}\": record {}", path, i + 2));
+      if (reader.below_noise(i))
+        control.warn(reader.what(i, "relmse") + " is not above 0, below the noise: left out");
+      else
+        add(scenes, reader.read(i), fmt::format("\"{}\": record {}", path, i + 2));
   }
   if (scenes.empty()) fail("\"{}\": there are no rows to report", tables[0]);
   for (SceneRuns& scene : scenes) {
@@ -215,14 +222,7 @@ ChartLine line_of(const Method& method, Field x, Field y) {
 }
 
 ChartPoint final_mean(const Method& method, Field y) {
-  ChartPoint point{0, 0, INFINITY, 0, static_cast<int>(method.seeds.size()), ""};
-  for (const Run& run : method.seeds) {
-    const double value = y(run.back());
-    point.y += value / point.rows;
-    point.low = std::min(point.low, value);
-    point.high = std::max(point.high, value);
-  }
-  return point;
+  return mean_at(method, method.seeds[0].size() - 1, y, y);
 }
 
 }  // namespace waylight

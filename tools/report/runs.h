@@ -37,14 +37,14 @@ struct SceneRuns {
 
 // Scenes and methods in the order in which they appear; `base`, if not empty, comes first in each.
 // Of the checkpoints those stay that all seeds of a method have, with a warning where that is not
-// all. Throws Error naming file and row for what is missing, and for two rows of one seed and time
-// that differ.
+// all; rows whose error is not above 0 are left out with a warning. Throws Error naming file and
+// row for what is missing, and for two rows of one seed and time that differ.
 std::vector<SceneRuns> read_runs(const std::vector<std::string>& tables, const std::string& base,
                                  const RunControl& control);
 
-// Geometric means over seeds, and the range of y, at each checkpoint.
+// Means over seeds, and the range of y, at each checkpoint.
 ChartLine line_of(const Method& method, Field x, Field y);
-// The same of the last checkpoint: arithmetic mean, for what is no error.
+// The same of the last checkpoint.
 ChartPoint final_mean(const Method& method, Field y);
 
 }  // namespace waylight
