@@ -173,6 +173,9 @@ void image_compare(const ToolRun& run, const ImageCompareOptions& options) {
   if (!options.variances.empty())
     report.z = z_scores(x, ref, total_variance(options, image, reference, frame), options.tile_size,
                         options.z_floor * report.figures.ref_mean);
+  if (options.variances == std::vector<std::string>{"self"} && !has_color(reference, kVariance))
+    run.control.warn(fmt::format("\"{}\" has no channels of variance: its own noise counts as bias",
+                                 options.reference));
   if (report.figures.non_finite > 0)
     run.control.warn(
         fmt::format("{} pixels are not finite and left out", report.figures.non_finite));

@@ -55,6 +55,13 @@ double preprocess_seconds(const std::vector<std::string>& paths) {
   return sum;
 }
 
+// In milliseconds, or empty where it is not known.
+std::string time_of_a_sample(const ImageLabels& labels) {
+  const std::string &seconds = labels.at("seconds"), &spp = labels.at("spp");
+  if (seconds.empty() || spp.empty() || !(number_in(spp, "spp") > 0)) return {};
+  return fmt::format("{:.6g}", 1000 * number_in(seconds, "seconds") / number_in(spp, "spp"));
+}
+
 // Columns of words; chart takes numbers from all others.
 bool is_text(const std::string& label) {
   return label == "scene" || label == "method" || label == "seed";
@@ -78,9 +85,7 @@ ImageLabels collect_labels(const ImageCompareOptions& options) {
     require(is_text(name) || labels[name].empty() || finite_number(labels[name]),
             "--label \"{}\": chart needs a number there", label);
   }
-  if (!labels["seconds"].empty() && !labels["spp"].empty())
-    labels["sample_ms"] = fmt::format(
-        "{:.6g}", 1000 * number_in(labels["seconds"], "seconds") / number_in(labels["spp"], "spp"));
+  if (labels["sample_ms"].empty()) labels["sample_ms"] = time_of_a_sample(labels);
   return labels;
 }
 

@@ -30,6 +30,17 @@ nlohmann::json read_stats(const std::string& file) {
   return stats;
 }
 
+// A value of statistics, or `otherwise` where there is none.
+template <typename T>
+T value_of(const nlohmann::json& stats, const std::string& file, const char* key, T otherwise) {
+  try {
+    return stats.value(key, otherwise);
+  } catch (const nlohmann::json::type_error&) {
+    fail("\"{}\": \"{}\" is not a {}; let the stage write its statistics again", file, key,
+         std::is_arithmetic_v<T> ? "number" : "text");
+  }
+}
+
 // What a render found out by itself, where its statistics are beside it.
 void add_findings(Rows& rows, const std::string& image) {
   const std::string file = std::filesystem::path(image).replace_extension(".json");
@@ -49,8 +60,11 @@ std::vector<std::string> stats_files(const SceneRuns& scene) {
 
 std::vector<std::string> stage_row(const std::string& file) {
   const nlohmann::json stats = read_stats(file);
-  return {text_of(stats.value("seconds", 0.0)), bytes_of(stats.value("peak_memory_bytes", 0.0)),
-          escaped(stats.value("tool", "")), escaped(stats.value("command", ""))};
+  const std::string none;
+  return {text_of(value_of(stats, file, "seconds", 0.0)),
+          bytes_of(value_of(stats, file, "peak_memory_bytes", 0.0)),
+          escaped(value_of(stats, file, "tool", none)),
+          escaped(value_of(stats, file, "command", none))};
 }
 
 }  // namespace
