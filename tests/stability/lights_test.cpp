@@ -68,14 +68,17 @@ TEST(UnequalLights, TinyAndHugeEmittersGiveFiniteSamples) {
     make_light(description, 1, Texture(1.0f));
     make_light(description, 2, Texture(1.0f));
     const Scene scene(std::move(description));
+    int sampled = 0;
     for (int i = 0; i < 1000; ++i) {
       Sampler sampler(6, 0, i);
       const float u = sampler.next();
       const auto light = scene.sample_light(Vec3::Zero(), u, sampler.next_2d());
       if (!light) continue;
+      ++sampled;
       EXPECT_TRUE(std::isfinite(light->pdf) && light->pdf > 0 && light->wi.allFinite());
       EXPECT_TRUE(std::isfinite(light->distance) && is_finite(light->radiance));
     }
+    EXPECT_GT(sampled, 100) << size;
   }
 }
 
