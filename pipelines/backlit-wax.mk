@@ -2,7 +2,7 @@
 NAME := backlit-wax
 OUT ?= out/backlit-wax
 SCENE := pipelines/scenes/backlit-wax.xml
-SCENE_FLAGS = -D meshes=$(abspath $(OUT))
+PIPELINE_FLAGS = -D meshes=$(abspath $(OUT))
 SCENE_INPUTS = $(OUT)/ring.obj
 PHOTONS ?= 4000000
 

@@ -44,9 +44,11 @@ QUIET ?=
 
 ROOT := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 
-# At its own size kitchenette is compared with the reference that its origin made.
+# At its own size kitchenette is compared with the reference that its origin made, whose paths end
+# after 21 edges.
 options_kitchenette := $(if $(SIZE),,REFERENCE=$(WAYLIGHT_SCENES)/kitchenette/kitchenette_ref.exr \
-  COMPARE_FLAGS='$(COMPARE_FLAGS) --resize-reference')
+  COMPARE_FLAGS='$(COMPARE_FLAGS) --resize-reference' \
+  RENDER_FLAGS='$(if $(findstring --max-depth,$(RENDER_FLAGS)),,--max-depth 21) $(RENDER_FLAGS)')
 methods_of = $(if $(filter $(1),$(media_scenes)),$(MEDIA_METHODS),$(METHODS))
 # A shipped reference has one size.
 size_of = $(if $(SIZE),SIZE=$(SIZE) 'REFERENCE=$$(OUT)/reference.exr')

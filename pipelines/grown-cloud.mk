@@ -2,7 +2,7 @@
 # includes this file, which includes media.mk.
 include $(dir $(lastword $(MAKEFILE_LIST)))guard.mk
 
-SCENE_FLAGS = -D cloud=$(abspath $(OUT))/cloud.vdb
+PIPELINE_FLAGS = -D cloud=$(abspath $(OUT))/cloud.vdb
 SCENE_INPUTS = $(OUT)/cloud.vdb
 MAKE_CLOUD_FLAGS ?= --seed 5
 PHOTONS ?= 1000000

@@ -2,7 +2,7 @@
 NAME := jewelry
 OUT ?= out/jewelry
 SCENE := pipelines/scenes/jewelry.xml
-SCENE_FLAGS = -D meshes=$(abspath $(OUT))
+PIPELINE_FLAGS = -D meshes=$(abspath $(OUT))
 SCENE_INPUTS = $(OUT)/ring.obj
 PHOTONS ?= 2000000
 

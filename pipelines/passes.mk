@@ -17,13 +17,13 @@ $(OUT)/scene.cache $(OUT)/photon-trace.json $(OUT)/cache-train.json &: $(SCENE) 
 	BIN='$(BIN)' LAUNCH='$(LAUNCH)' SIZE='$(SIZE)' SEED='$(SEED)' QUIET='$(QUIET)' \
 	  FIRST_PHOTONS='$(FIRST_PHOTONS)' MOST_PHOTONS='$(MOST_PHOTONS)' TRAIN_FROM='$(TRAIN_FROM)' \
 	  PHOTON_TRACE_FLAGS='$(PHOTON_TRACE_FLAGS)' CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS)' \
-	  $(ROOT)/train-until.sh $(OUT) $(TRAIN_FOR) $(SCENE) $(SCENE_FLAGS)
+	  $(ROOT)/train-until.sh $(OUT) $(TRAIN_FOR) $(SCENE) $(scene_flags)
 
 training := photon-trace cache-train
 else ifeq ($(PASSES),0)
 $(OUT)/scene.photons $(OUT)/photon-trace.json &: $(SCENE) $(SCENE_INPUTS) \
     $(OUT)/.options/photon-trace $(BIN)/photon-trace
-	$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $(OUT)/scene.photons \
+	$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(scene_flags) -o $(OUT)/scene.photons \
 	  $(traced) --seed $(SEED) --stats $(OUT)/photon-trace.json \
 	  $(PHOTON_TRACE_FLAGS) $(QUIET)
 
@@ -48,7 +48,7 @@ guides_paths = $(if $(filter lights,$(TRAIN_FROM)),,$(call go_on,$(1),cache))
 define pass_rules
 $(OUT)/pass-$(1).importons $(OUT)/importon-trace-$(1).json &: $(SCENE) $(SCENE_INPUTS) \
     $(OUT)/.options/importons $(BIN)/photon-trace
-	$$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $(OUT)/pass-$(1).importons \
+	$$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(scene_flags) -o $(OUT)/pass-$(1).importons \
 	  --from camera --count $(IMPORTONS) --seed $(SEED) --pass $(1) \
 	  --stats $(OUT)/importon-trace-$(1).json $(QUIET)
 
@@ -63,7 +63,7 @@ $(OUT)/pass-$(1).importance.cache $(OUT)/importance-train-$(1).json &: \
 $(OUT)/pass-$(1).photons $(OUT)/photon-trace-$(1).json &: $(SCENE) $(SCENE_INPUTS) \
     $(call importance_of,$(1)) $(call guides_paths,$(1)) $(OUT)/.options/photon-trace \
     $(BIN)/photon-trace
-	$$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(SCENE_FLAGS) -o $(OUT)/pass-$(1).photons \
+	$$(LAUNCH) $(BIN)/photon-trace $(SCENE) $(scene_flags) -o $(OUT)/pass-$(1).photons \
 	  $(addprefix --importance ,$(call importance_of,$(1))) \
 	  $(addprefix --cache ,$(call guides_paths,$(1))) $(traced) --seed $(SEED) --pass $(1) --stats $(OUT)/photon-trace-$(1).json $(PHOTON_TRACE_FLAGS) $(QUIET)
 
@@ -80,7 +80,7 @@ $(OUT)/pass-$(1).reduced.cache: $(OUT)/pass-$(1).cache $(OUT)/.options/cache-red
 $(OUT)/pass-$(1).exr $(OUT)/pass-$(1).json &: $(SCENE) $(SCENE_INPUTS) \
     $(OUT)/pass-$(1).reduced.cache $(OUT)/reduced.brdf $(OUT)/.options/render \
     $(OUT)/.options/passes-chart $(BIN)/render
-	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $(OUT)/pass-$(1).exr --mode product \
+	$$(LAUNCH) $(BIN)/render $(SCENE) $(scene_flags) -o $(OUT)/pass-$(1).exr --mode product \
 	  --cache $(OUT)/pass-$(1).reduced.cache --brdf $(OUT)/reduced.brdf --spp $(PASSES_SPP) \
 	  --size $(SIZE) --seed $(SEED) --aov variance --stats $(OUT)/pass-$(1).json \
 	  $(RENDER_FLAGS) $(QUIET)

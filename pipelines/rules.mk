@@ -19,7 +19,8 @@
 # OUT              folder of the results                                      out/NAME
 # BIN              folder of the executables                                  build/bin
 # LAUNCH           put before each command, for example `srun -n1`
-# SCENE_FLAGS      -D name=value for every tool that reads the scene
+# SCENE_FLAGS      -D name=value for every tool that reads the scene; a pipeline that has some of its own
+#                  sets PIPELINE_FLAGS
 # SCENE_INPUTS     files that the scene reads beside SCENE: all begins again when they change
 # QUIET            -q: tools say only what is wrong
 # SIZE             image size
@@ -44,6 +45,8 @@
 #                  METHODS='product product-8' mode_product-8=product flags_product-8='--max-depth 8'
 #                  A method gets the caches of its mode, or of the one that needs_NAME says.
 # BRDF_FIT_FLAGS PHOTON_TRACE_FLAGS CACHE_TRAIN_FLAGS CACHE_REDUCE_FLAGS RENDER_FLAGS COMPARE_FLAGS
+#                  The reference is not rendered with RENDER_FLAGS: what changes the image, as
+#                  --max-depth, belongs into REFERENCE_FLAGS too.
 # REFERENCE        image to compare with; made from REFERENCE_SPP samples of REFERENCE_MODE, with
 #                  REFERENCE_FLAGS, when it is not set
 
@@ -75,6 +78,7 @@ REFERENCE_FLAGS ?=
 REFERENCE ?= $(OUT)/reference.exr
 SCENE_INPUTS ?=
 QUIET ?=
+scene_flags = $(strip $(PIPELINE_FLAGS) $(SCENE_FLAGS))
 
 .PHONY: all cache images chart charts report summary passes-chart reference clean FORCE
 all: chart summary
@@ -91,23 +95,23 @@ $(OUT)/.options/$(1): FORCE
 	@printf '%s\n' '$(subst ','\'',$(2))' > $$@.new
 	@if cmp -s $$@.new $$@; then rm $$@.new; else mv $$@.new $$@; fi
 endef
-$(eval $(call stamp,brdf-fit,$(SCENE_FLAGS) $(SEED) $(BRDF_FIT_FLAGS)))
-$(eval $(call stamp,photon-trace,$(SCENE_FLAGS) $(SEED) $(PHOTONS) $(PHOTON_TRACE_FLAGS)$(if \
+$(eval $(call stamp,brdf-fit,$(scene_flags) $(SEED) $(BRDF_FIT_FLAGS)))
+$(eval $(call stamp,photon-trace,$(scene_flags) $(SEED) $(PHOTONS) $(PHOTON_TRACE_FLAGS)$(if \
   $(filter-out lights,$(TRAIN_FROM)), $(TRAIN_FROM) $(PATHS))))
-$(eval $(call stamp,importons,$(SCENE_FLAGS) $(SEED) $(IMPORTONS)))
+$(eval $(call stamp,importons,$(scene_flags) $(SEED) $(IMPORTONS)))
 $(eval $(call stamp,passes,$(PASSES)))
 $(eval $(call stamp,passes-chart,$(PASSES_SPP)))
 $(eval $(call stamp,cache-train,$(CACHE_TRAIN_FLAGS)))
 $(eval $(call stamp,cache-reduce,$(CACHE_REDUCE_FLAGS)))
-$(eval $(call stamp,render,$(SCENE_FLAGS) $(SEED) $(SIZE) $(RENDER_FLAGS)))
-$(eval $(call stamp,reference,$(SCENE_FLAGS) $(SIZE) $(REFERENCE_SPP) $(REFERENCE_MODE) \
+$(eval $(call stamp,render,$(scene_flags) $(SEED) $(SIZE) $(RENDER_FLAGS)))
+$(eval $(call stamp,reference,$(scene_flags) $(SIZE) $(REFERENCE_SPP) $(REFERENCE_MODE) \
   $(REFERENCE_FLAGS)))
 $(eval $(call stamp,measure,$(REFERENCE) $(COMPARE_FLAGS)))
 $(eval $(call stamp,chart,$(METHODS) $(TIMES) $(SEEDS)))
 
 $(OUT)/scene.brdf $(OUT)/brdf-fit.json &: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/brdf-fit \
     $(BIN)/brdf-fit
-	$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $(SCENE_FLAGS) -o $(OUT)/scene.brdf --seed $(SEED) \
+	$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $(scene_flags) -o $(OUT)/scene.brdf --seed $(SEED) \
 	  --stats $(OUT)/brdf-fit.json $(BRDF_FIT_FLAGS) $(QUIET)
 
 # $(call measure,stem,method,preprocessing,flags): the figures of an image as the table $@.
@@ -160,7 +164,7 @@ checkpoints := $(subst $(empty) $(empty),$(comma),$(strip $(times)))
 define render_rule
 $(6:=.exr) $(6:=.json) &: $(SCENE) $(SCENE_INPUTS) $$(caches_$(4)) $(OUT)/.options/render \
     $(OUT)/.options/render-$(1) $(BIN)/render
-	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $(5).exr --mode $(3) \
+	$$(LAUNCH) $(BIN)/render $(SCENE) $(scene_flags) -o $(5).exr --mode $(3) \
 	  $$(call cache_flags,$$(caches_$(4))) --checkpoints $(checkpoints) --size $(SIZE) \
 	  --seed $(2) --aov variance --png $(5).png --stats $(5).json $(flags_$(1)) $(RENDER_FLAGS) \
 	  $(QUIET)
@@ -205,7 +209,7 @@ $(OUT)/report.html: $(OUT)/$(NAME).csv $(BIN)/report
 # Its mean does not depend on the caches that guide it: it is not made again with them.
 $(OUT)/reference.exr: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/reference $(BIN)/render \
     | $(caches_$(REFERENCE_MODE))
-	$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $@ --mode $(REFERENCE_MODE) \
+	$(LAUNCH) $(BIN)/render $(SCENE) $(scene_flags) -o $@ --mode $(REFERENCE_MODE) \
 	  $(call cache_flags,$(caches_$(REFERENCE_MODE))) $(REFERENCE_FLAGS) \
 	  --spp $(REFERENCE_SPP) --size $(SIZE) --seed 1000003 --aov variance \
 	  --stats $(OUT)/reference.json $(QUIET)

@@ -27,11 +27,11 @@ unbiased: $(OUT)/unbiased.md
 
 include $(ROOT)/trade-offs.mk
 
-$(eval $(call stamp,study,$(SCENE_FLAGS) $(SEED) $(SIZE) $(RENDER_FLAGS) $(STUDY_SPP)))
+$(eval $(call stamp,study,$(scene_flags) $(SEED) $(SIZE) $(RENDER_FLAGS) $(STUDY_SPP)))
 $(eval $(call stamp,reduction,$(THRESHOLDS)))
-$(eval $(call stamp,unbiased,$(SCENE_FLAGS) $(SIZE) $(RENDER_FLAGS) $(UNBIASED_SPP) \
+$(eval $(call stamp,unbiased,$(scene_flags) $(SIZE) $(RENDER_FLAGS) $(UNBIASED_SPP) \
   $(UNBIASED_AGAINST) $(METHODS)))
-study_render = $(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) --spp $(STUDY_SPP) --size $(SIZE) \
+study_render = $(LAUNCH) $(BIN)/render $(SCENE) $(scene_flags) --spp $(STUDY_SPP) --size $(SIZE) \
   --seed $(or $(1),$(SEED)) $(RENDER_FLAGS) $(QUIET)
 $(OUT)/reduction/%.brdf $(OUT)/reduction/%.brdf.json: $(OUT)/scene.brdf $(BIN)/cache-reduce
 	@mkdir -p $(@D)
@@ -87,7 +87,7 @@ define unbiased_rule
 $(OUT)/unbiased/$(1).exr: $(SCENE) $(SCENE_INPUTS) $$(caches_$(4)) $(OUT)/.options/unbiased \
     $(OUT)/.options/render-$(1) $(BIN)/render
 	@mkdir -p $$(@D)
-	$$(LAUNCH) $(BIN)/render $(SCENE) $(SCENE_FLAGS) -o $$@ --mode $(2) \
+	$$(LAUNCH) $(BIN)/render $(SCENE) $(scene_flags) -o $$@ --mode $(2) \
 	  $$(call cache_flags,$$(caches_$(4))) --spp $(UNBIASED_SPP) --size $(SIZE) --aov variance \
 	  --seed $(3) $(flags_$(1)) $(RENDER_FLAGS) $(QUIET)
 endef

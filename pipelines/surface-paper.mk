@@ -26,12 +26,14 @@ WAYLIGHT_SCENES ?= ../shared/scenes
 
 ROOT := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 
-# All at 640 pixels; at its own size kitchenette is compared with the reference that its origin made.
+# All at 640 pixels; at its own size kitchenette is compared with the reference that its origin made,
+# whose paths end after 21 edges.
 options_gap-room := SIZE=$(or $(SIZE),640x360) PHOTONS=4000000
 options_jewelry := SIZE=$(or $(SIZE),640x360) PHOTONS=4000000
 options_veach-ajar := PHOTONS=8000000
 options_kitchenette := $(if $(SIZE),,REFERENCE=$(WAYLIGHT_SCENES)/kitchenette/kitchenette_ref.exr \
-  COMPARE_FLAGS='$(COMPARE_FLAGS) --resize-reference')
+  COMPARE_FLAGS='$(COMPARE_FLAGS) --resize-reference' \
+  RENDER_FLAGS='$(if $(findstring --max-depth,$(RENDER_FLAGS)),,--max-depth 21) $(RENDER_FLAGS)')
 reference_of = $(if $(findstring REFERENCE=,$(options_$(1))),,'REFERENCE=$$(OUT)/reference.exr')
 scene_make = $(MAKE) --no-print-directory -f $(ROOT)/$(1).mk OUT=$(OUT)/$(1) BIN=$(BIN) \
   WAYLIGHT_SCENES=$(WAYLIGHT_SCENES) TIMES='$(SECONDS)' SEEDS='$(SEEDS)' METHODS='$(METHODS)' \
@@ -59,8 +61,8 @@ $(SCENES:%=studies-%): studies-%: %
 	+$(call scene_make,$*) reduction overhead unbiased
 studies: $(SCENES:%=studies-%)
 	@for table in overhead unbiased; do \
-	  awk 'FNR > 2 || NR < 3' $(foreach s,$(SCENES),$(OUT)/$(s)/$$table.md) > $(OUT)/$$table.md; \
-	  cat $(OUT)/$$table.md; done
+	  awk 'FNR > 2 || NR < 3' $(foreach s,$(SCENES),$(OUT)/$(s)/$$table.md) > $(OUT)/$$table.tmp && \
+	    mv $(OUT)/$$table.tmp $(OUT)/$$table.md && cat $(OUT)/$$table.md || exit 1; done
 
 clean:
 	rm -rf $(OUT)

@@ -48,8 +48,8 @@ $(OUT)/trade-off-$(1).svg: $(OUT)/trade-off-$(1).csv $(BIN)/chart
 	$$(LAUNCH) $(BIN)/chart $$< -o $$@ --labels $(1) $(4) --title "$(NAME): $(1)" $(QUIET)
 endef
 study_needs := $(call needs_of,$(STUDY_METHOD))
-study_scene = SCENE='$(SCENE)' SCENE_FLAGS='$(SCENE_FLAGS)' SCENE_INPUTS='$(SCENE_INPUTS)' \
-  REFERENCE='$(REFERENCE)'
+study_scene = SCENE='$(SCENE)' PIPELINE_FLAGS='$(PIPELINE_FLAGS)' SCENE_FLAGS='$(SCENE_FLAGS)' \
+  SCENE_INPUTS='$(SCENE_INPUTS)' REFERENCE='$(REFERENCE)'
 $(eval $(call trade_off,photons,$(PHOTONS_TRIED),PHOTONS=%,--preprocess))
 $(eval $(call trade_off,cells,$(CELLS_TRIED),\
   CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --photons-per-cell %',--preprocess))
@@ -80,7 +80,7 @@ $(OUT)/point.csv: $(SEEDS:%=$(OUT)/point-%.csv)
 # Fits are judged without a render: seconds of fitting, and error on samples they have not seen.
 $(OUT)/fit/%.json: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/brdf-fit $(BIN)/brdf-fit
 	@mkdir -p $(@D)
-	$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $(SCENE_FLAGS) -o $(OUT)/fit/$*.brdf --seed $(SEED) \
+	$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $(scene_flags) -o $(OUT)/fit/$*.brdf --seed $(SEED) \
 	  --stats $@ --fit $(*D) --components $(*F) --fixed-components $(BRDF_FIT_FLAGS) $(QUIET)
 
 fits := $(foreach f,em ceres,$(FITS_TRIED:%=$(OUT)/fit/$(f)/%.json))

@@ -80,8 +80,14 @@ runs_scenes := $(filter all comparisons training unbiased unbiased-% $(SCENES),$
 $(shafts_cache): $(if $(runs_scenes),$(filter light-shafts,$(SCENES))) FORCE
 	+$(call scene_make,light-shafts) $@
 
+# A file that changes only when the size does.
+$(OUT)/.options/shafts: FORCE
+	@mkdir -p $(@D)
+	@echo '$(SHAFTS_SIZE)' > $@.new
+	@if cmp -s $@.new $@; then rm $@.new; else mv $@.new $@; fi
+
 define shafts_rule
-$(OUT)/shafts/$(1)-%.png: $(shafts_cache) $(BIN)/render
+$(OUT)/shafts/$(1)-%.png: $(shafts_cache) $(OUT)/.options/shafts $(BIN)/render
 	@mkdir -p $$(@D)
 	$(LAUNCH) $(BIN)/render $(ROOT)/scenes/light-shafts.xml -o $$(basename $$@).exr --png $$@ --mode bsdf \
 	  --direction standard --rr throughput $(shafts_$(1)) --size $(SHAFTS_SIZE) --spp $$* \
@@ -92,8 +98,8 @@ $(foreach m,none distance,$(eval $(call shafts_rule,$(m))))
 $(SCENES:%=unbiased-%): unbiased-%: %
 	+$(call scene_make,$*) unbiased
 unbiased: $(SCENES:%=unbiased-%)
-	@awk 'FNR > 2 || NR < 3' $(foreach s,$(SCENES),$(OUT)/$(s)/unbiased.md) > $(OUT)/unbiased.md; \
-	  cat $(OUT)/unbiased.md
+	@awk 'FNR > 2 || NR < 3' $(foreach s,$(SCENES),$(OUT)/$(s)/unbiased.md) > $(OUT)/unbiased.tmp
+	@mv $(OUT)/unbiased.tmp $(OUT)/unbiased.md && cat $(OUT)/unbiased.md
 
 clean:
 	rm -rf $(OUT)

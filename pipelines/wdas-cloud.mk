@@ -4,7 +4,7 @@ WAYLIGHT_SCENES ?= ../shared/scenes
 NAME := wdas-cloud
 SCENE := pipelines/scenes/wdas-cloud.xml
 SCENE_INPUTS = $(WAYLIGHT_SCENES)/volumes/wdas_cloud_sixteenth.vdb
-SCENE_FLAGS = -D cloud=$(abspath $(SCENE_INPUTS))
+PIPELINE_FLAGS = -D cloud=$(abspath $(SCENE_INPUTS))
 $(if $(wildcard $(SCENE_INPUTS))$(filter clean,$(MAKECMDGOALS)),,$(error no $(SCENE_INPUTS): \
   WAYLIGHT_SCENES is to be the folder of scenes made elsewhere, see docs/scenes.md))
 PHOTONS ?= 1000000

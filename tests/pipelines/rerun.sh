@@ -58,6 +58,8 @@ must_run RENDER_FLAGS='--max-depth 5'
 expect "other RENDER_FLAGS" "chart image-compare render"
 [[ $(stat -c %y out/gap-room/reference.exr) == "$reference" ]] ||
   { echo "FAIL gap-room: other RENDER_FLAGS made the reference again"; ((++failures)); }
+eval "must_run $(sed -n 's/^    make -f pipelines.gap-room.mk \(RENDER_FLAGS=[^#]*\)#.*/\1/p' "$root/docs/pipelines.md")"
+expect "other RENDER_FLAGS, as the documentation has them" "chart image-compare render"
 must_run RENDER_FLAGS="-D quote='two words'"
 expect "RENDER_FLAGS with quotes" "chart image-compare render"
 must_run
@@ -106,6 +108,10 @@ grep -q '^bought .*product' out/gap-room/summary.txt ||
   { echo "FAIL gap-room: no summary"; cat log; ((++failures)); }
 must_run PHOTONS=auto TRAIN_FOR=0.01 TIMES=0.05
 expect "PHOTONS=auto again" ""
+statistics=$(cksum out/gap-room/*.json)
+must_run trade-off-cells PHOTONS=auto TRAIN_FOR=0.01 TIMES=0.05 CELLS_TRIED=600 STUDY_SPP=2
+[[ $(cksum out/gap-room/*.json) == "$statistics" ]] ||
+  { echo "FAIL gap-room: a trade-off with PHOTONS=auto writes into the statistics"; ((++failures)); }
 
 # Training from camera paths, once, in passes and until it does not pay.
 must_run PHOTONS=30000 TIMES=0.05 METHODS=product
@@ -117,6 +123,8 @@ must_run PHOTONS=30000 TIMES=0.05 METHODS=product TRAIN_FROM=camera PASSES=2
 expect "passes of camera paths" "cache-reduce cache-train chart image-compare photon-trace render"
 [[ $(grep -c -- '--cache [^ ]*pass-1.cache --count 0 --paths 7500' log) == 1 ]] ||
   { echo "FAIL gap-room: paths of pass 2 are not guided by pass 1"; cat log; ((++failures)); }
+[[ $(grep -c '^photons' out/gap-room/summary.txt) == 2 && $(grep -c '^cells' out/gap-room/summary.txt) == 2 ]] ||
+  { echo "FAIL gap-room: the summary is not of two passes"; cat out/gap-room/summary.txt; ((++failures)); }
 must_run PHOTONS=auto TRAIN_FOR=0.01 TIMES=0.05 METHODS=product TRAIN_FROM=both
 expect "PHOTONS=auto from both" "cache-reduce chart image-compare render"
 run TRAIN_FROM=nowhere && { echo "FAIL gap-room: TRAIN_FROM=nowhere is taken"; ((++failures)); }
@@ -226,6 +234,11 @@ for image in none-2 distance-2; do
     { echo "FAIL volume-paper: no light shafts $image"; ((++failures)); }
 done
 
+make --no-print-directory -f pipelines/volume-paper.mk "${small[@]}" shafts > log 2>&1
+expect "shafts again" ""
+make --no-print-directory -f pipelines/volume-paper.mk "${small[@]}" shafts SHAFTS_SIZE=16x9 > log 2>&1
+expect "shafts of another size" "render"
+
 # Times that both seeds reach on a busy machine.
 small=("${tiny[@]}" 'TIMES=0.2 0.4' SEEDS='1 2' OUT=out/compare 'SCENES=gap-room smoky-room'
        'MEDIA_METHODS=none both' 'options_smoky-room=PHOTONS=2000')
@@ -237,23 +250,6 @@ run_compare || { echo "FAIL compare: make failed"; cat log; ((++failures)); }
   { echo "FAIL compare: not all figures, charts and the report"; ((++failures)); }
 run_compare
 expect "a second run" ""
-
-# What COMPARE_FLAGS says holds for kitchenette too; its reference has the size of its own images.
-kitchenette() {
-  make -n --no-print-directory -f pipelines/compare.mk SCENES=kitchenette WAYLIGHT_SCENES=elsewhere \
-    COMPARE_FLAGS=--subtract-reference-noise "$@" > log 2>&1
-  grep -q "COMPARE_FLAGS='--subtract-reference-noise --resize-reference'" log
-}
-kitchenette || { echo "FAIL compare: no --resize-reference for kitchenette"; ((++failures)); }
-kitchenette SIZE=32x18 &&
-  { echo "FAIL compare: kitchenette has a reference of another size"; ((++failures)); }
-
-# A SIZE for all scenes is that of gap-room too, and kitchenette then has a reference of its own.
-make -n --no-print-directory -f pipelines/surface-paper.mk SCENES=gap-room SIZE=32x18 BIN=bin \
-  equal-time > log 2>&1
-if ! grep -q -- '--size 32x18' log || grep -q -- '--size 640x360' log; then
-  echo "FAIL surface-paper: gap-room has not the SIZE that is asked for"; cat log; ((++failures))
-fi
 
 # What would do nothing, or the wrong thing, is refused, and nothing is removed.
 # refused TEXT MAKE-ARGUMENTS...
