@@ -1,5 +1,7 @@
 #include "formats/mitsuba/film.h"
 
+#include "formats/mitsuba/types.h"
+
 namespace waylight::mitsuba {
 namespace {
 
@@ -12,43 +14,53 @@ const std::vector<std::string> kOutputOptions = {
     "key",          "pixel_format", "label", "sample_border",    "tonemap_method",
     "channel_names"};
 
-const std::vector<std::string> kFilterTypes = {"box",      "tent",       "gaussian",
-                                               "mitchell", "catmullrom", "lanczos"};
+void import_box(ImportContext& /*context*/, Properties& /*properties*/, FilmDescription& film) {
+  film.filter = FilterType::box;
+}
 
-void import_filter(ImportContext& context, const Element& element, FilmDescription& film) {
-  Properties properties(context.document, element);
-  film.filter_radius = properties.number("radius", 0);
-  if (film.filter_radius < 0) fail_at(element, "its radius must not be negative");
-  if (element.type == "box") {
-    film.filter = FilterType::box;
-  } else if (element.type == "tent") {
-    film.filter = FilterType::tent;
-  } else if (element.type == "gaussian") {
-    film.filter = FilterType::gaussian;
-    film.filter_stddev = properties.number("stddev", 0.5f);
-    if (!(film.filter_stddev > 0)) fail_at(element, "its stddev must be above 0");
-  } else if (element.type == "mitchell") {
-    film.filter = FilterType::mitchell;
-    // B and C of [Mitchell, Netravali 1988]; Mitsuba 2 and 3 call them A and B.
-    const bool old = context.document.old_dialect;
-    film.filter_b = properties.number(old ? "b" : "A", 1.0f / 3);
-    film.filter_c = properties.number(old ? "c" : "B", 1.0f / 3);
-  } else {
-    fail_at(element, "unknown filter{}", did_you_mean(element.type, kFilterTypes));
-  }
-  properties.finish();
+void import_tent(ImportContext& /*context*/, Properties& /*properties*/, FilmDescription& film) {
+  film.filter = FilterType::tent;
+}
+
+void import_gaussian(ImportContext& /*context*/, Properties& properties, FilmDescription& film) {
+  film.filter = FilterType::gaussian;
+  film.filter_stddev = properties.number("stddev", 0.5f);
+  if (!(film.filter_stddev > 0)) fail_at(properties.element(), "its stddev must be above 0");
+}
+
+void import_mitchell(ImportContext& context, Properties& properties, FilmDescription& film) {
+  film.filter = FilterType::mitchell;
+  // B and C of [Mitchell, Netravali 1988]; Mitsuba 2 and 3 call them A and B.
+  const bool old = context.document.old_dialect;
+  film.filter_b = properties.number(old ? "b" : "A", 1.0f / 3);
+  film.filter_c = properties.number(old ? "c" : "B", 1.0f / 3);
 }
 
 // Catmull-Rom is the member B = 0, C = 1/2 of the Mitchell family; Lanczos is near to it.
-bool replace_filter(ImportContext& context, const Element& element, FilmDescription& film) {
-  if (element.type != "catmullrom" && element.type != "lanczos") return false;
+void replace(ImportContext& context, Properties& properties, FilmDescription& film) {
+  const Element& element = properties.element();
   if (!context.options.lenient)
     fail_at(element, "is not supported; use mitchell, or --lenient to have it replaced");
   context.warn(fmt::format("{}: replaced by mitchell with B = 0, C = 1/2", element.where()));
+  properties.ignore({"lobes"});
+  film.filter_radius = 0;
   film.filter = FilterType::mitchell;
   film.filter_b = 0;
   film.filter_c = 0.5f;
-  return true;
+}
+
+using FilterImporter = void (*)(ImportContext&, Properties&, FilmDescription&);
+const std::map<std::string, FilterImporter> kFilters = {
+    {"box", import_box},           {"tent", import_tent},   {"gaussian", import_gaussian},
+    {"mitchell", import_mitchell}, {"catmullrom", replace}, {"lanczos", replace}};
+
+void import_filter(ImportContext& context, const Element& element, FilmDescription& film) {
+  Properties properties(context.document, element);
+  const FilterImporter importer = importer_of(element, kFilters, "filter");
+  film.filter_radius = properties.number("radius", 0);
+  if (film.filter_radius < 0) fail_at(element, "its radius must not be negative");
+  importer(context, properties, film);
+  properties.finish();
 }
 
 int pixels(const Element& film, Properties& properties, const std::string& name, int otherwise,
@@ -81,8 +93,7 @@ FilmDescription import_film(ImportContext& context, const Element& element) {
   film.width = pixels(element, properties, "width", film.width, 1);
   film.height = pixels(element, properties, "height", film.height, 1);
   import_crop(element, properties, film);
-  for (const Element* filter : properties.objects("rfilter"))
-    if (!replace_filter(context, *filter, film)) import_filter(context, *filter, film);
+  for (const Element* filter : properties.objects("rfilter")) import_filter(context, *filter, film);
   properties.ignore(kOutputOptions);
   properties.finish();
   return film;

@@ -1,5 +1,6 @@
 #include "formats/mitsuba/film.h"
 #include "formats/mitsuba/parse_value.h"
+#include "formats/mitsuba/types.h"
 
 namespace waylight::mitsuba {
 namespace {
@@ -22,22 +23,17 @@ double focal_length(const Element& sensor, Properties& properties) {
   return length;
 }
 
-FovAxis import_axis(const Element& sensor, Properties& properties) {
+FovAxis import_axis(Properties& properties) {
   static const std::map<std::string, FovAxis> kAxes = {{"x", FovAxis::x},
                                                        {"y", FovAxis::y},
                                                        {"diagonal", FovAxis::diagonal},
                                                        {"smaller", FovAxis::smaller},
                                                        {"larger", FovAxis::larger}};
-  const std::string axis = properties.text("fov_axis", "x");
-  const auto known = kAxes.find(axis);
-  if (known == kAxes.end())
-    fail_at(sensor, "unknown fov_axis \"{}\"{}", axis,
-            did_you_mean(axis, {"x", "y", "diagonal", "smaller", "larger"}));
-  return known->second;
+  return choose(properties, "fov_axis", kAxes, "x");
 }
 
 void import_fov(const Element& sensor, Properties& properties, SensorDescription& result) {
-  result.fov_axis = import_axis(sensor, properties);
+  result.fov_axis = import_axis(properties);
   if (properties.has("fov") && properties.has("focal_length"))
     fail_at(sensor, "has both fov and focal_length");
   if (!properties.has("fov")) {

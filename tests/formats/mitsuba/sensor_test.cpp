@@ -112,7 +112,7 @@ TEST_F(SensorTest, WrongValuesNameTheElement) {
       {"<float name=\"fov\" value=\"180\"/>", "fov"},
       {"<float name=\"fovv\" value=\"1\"/>", "did you mean \"fov\""},
       {"<string name=\"fov_axis\" value=\"z\"/><float name=\"fov\" value=\"9\"/>",
-       "unknown fov_axis \"z\"; known are x, y, diagonal"},
+       "unknown fov_axis \"z\"; known are diagonal, larger, smaller, x, y"},
       {"<float name=\"fov\" value=\"9\"/><float name=\"focal_length\" value=\"9\"/>", "both"},
       {"<film type=\"hdrfilm\"><integer name=\"width\" value=\"0\"/></film>", "width is 0"},
       {"<film type=\"hdrfilm\"><integer name=\"width\" value=\"99999999\"/></film>", "width"},
