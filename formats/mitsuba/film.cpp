@@ -1,6 +1,7 @@
 #include "formats/mitsuba/film.h"
 
 #include "formats/mitsuba/types.h"
+#include "libguide/scene/camera.h"
 
 namespace waylight::mitsuba {
 namespace {
@@ -26,6 +27,8 @@ void import_gaussian(ImportContext& /*context*/, Properties& properties, FilmDes
   film.filter = FilterType::gaussian;
   film.filter_stddev = properties.number("stddev", 0.5f);
   if (!(film.filter_stddev > 0)) fail_at(properties.element(), "its stddev must be above 0");
+  // Both dialects cut after four deviations.
+  if (!properties.has("radius")) film.filter_radius = 4 * film.filter_stddev;
 }
 
 void import_mitchell(ImportContext& context, Properties& properties, FilmDescription& film) {
@@ -60,6 +63,9 @@ void import_filter(ImportContext& context, const Element& element, FilmDescripti
   film.filter_radius = properties.number("radius", 0);
   if (film.filter_radius < 0) fail_at(element, "its radius must not be negative");
   importer(context, properties, film);
+  if (film.filter_radius > FilterSampler::kMaxRadius)
+    fail_at(element, "reaches {} pixels far, at most {} are possible; make it narrower",
+            film.filter_radius, FilterSampler::kMaxRadius);
   properties.finish();
 }
 

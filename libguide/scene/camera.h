@@ -39,6 +39,8 @@ class Camera {
 // are exact for that.
 class FilterSampler {
  public:
+  static constexpr float kMaxRadius = 16;  // pixels
+
   explicit FilterSampler(const FilmDescription& film);
 
   struct Sample {

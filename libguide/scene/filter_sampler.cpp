@@ -49,8 +49,9 @@ double evaluate(const FilmDescription& film, double radius, double x) {
 
 FilterSampler::FilterSampler(const FilmDescription& film)
     : radius_(film.filter_radius > 0 ? film.filter_radius : default_radius(film.filter)) {
-  if (!(radius_ <= 16 && film.filter_stddev > 0))
-    fail("film: the filter needs a radius of at most 16 pixels and a deviation above 0");
+  if (!(radius_ <= kMaxRadius && film.filter_stddev > 0))
+    fail("film: the filter needs a radius of at most {} pixels and a deviation above 0",
+         kMaxRadius);
   const int cells = std::max(2, static_cast<int>(std::ceil(2 * radius_ * kCellsPerPixel)));
   for (int i = 0; i <= cells; ++i) {
     const double x = radius_ * (2.0 * i / cells - 1);

@@ -99,6 +99,15 @@ TEST_F(SensorTest, FilmCropAndFilters) {
   EXPECT_EQ(film("").filter, FilterType::gaussian);
 }
 
+TEST_F(SensorTest, GaussianFiltersEndAtFourDeviationsUnlessTheySayWhere) {
+  const auto radius = [&](const std::string& children) {
+    return film("<rfilter type=\"gaussian\">" + children + "</rfilter>").filter_radius;
+  };
+  EXPECT_EQ(radius(""), 2);
+  EXPECT_EQ(radius("<float name=\"stddev\" value=\"1.5\"/>"), 6);
+  EXPECT_EQ(radius(R"(<float name="stddev" value="1.5"/><float name="radius" value="3"/>)"), 3);
+}
+
 TEST_F(SensorTest, FilterThatIsNotImplementedIsReplacedOnlyWhenAsked) {
   const std::string body = "<film type=\"hdrfilm\"><rfilter type=\"lanczos\"/></film>";
   EXPECT_TRUE(mentions(sensor_error(body), "--lenient"));
@@ -119,6 +128,9 @@ TEST_F(SensorTest, WrongValuesNameTheElement) {
       {"<film type=\"hdrfilm\"><integer name=\"crop_offset_x\" value=\"900\"/></film>", "crop"},
       {"<film type=\"hdrfim\"/>", "did you mean \"hdrfilm\""},
       {"<film type=\"hdrfilm\"><rfilter type=\"bx\"/></film>", "did you mean \"box\""},
+      {R"(<film type="hdrfilm"><rfilter type="gaussian"><float name="stddev" value="5"/></rfilter>
+       </film>)",
+       "20 pixels far"},
       {"<transform name=\"to_world\"><scale x=\"2\"/></transform>", "rotation"},
       {"<transform name=\"to_world\"><scale value=\"0\"/></transform>", "rotation"}};
   for (const auto& [body, message] : cases) {
