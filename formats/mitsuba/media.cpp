@@ -58,15 +58,13 @@ Color coefficient(Properties& properties, const std::string& name) {
   return color;
 }
 
-void check_albedo(const Element& element, float least, float most) {
-  if (least < 0 || most > 1) fail_at(element, "its albedo is outside of 0..1");
+float most_of(const VolumeTexture& volume) {
+  if (const Color* color = std::get_if<Color>(&volume)) return color->maxCoeff();
+  return std::get<std::shared_ptr<const VolumeGrid>>(volume)->voxels.range().most;
 }
 
 void check_albedo(const Element& element, const VolumeTexture& albedo) {
-  if (const Color* color = std::get_if<Color>(&albedo))
-    return check_albedo(element, color->minCoeff(), color->maxCoeff());
-  const auto [least, most] = std::get<std::shared_ptr<const VolumeGrid>>(albedo)->voxels.range();
-  check_albedo(element, least, most);
+  if (most_of(albedo) > 1) fail_at(element, "its albedo is above 1");
 }
 
 // A colour that may be written as a volume of one value.
@@ -83,7 +81,6 @@ HomogeneousMedium from_extinction(ImportContext& context, Properties& properties
     fail_at(element, "needs both sigma_t and albedo");
   const Color sigma_t = constant_volume(context, properties, "sigma_t", kSigmaT);
   const Color albedo = constant_volume(context, properties, "albedo", kAlbedo);
-  if (sigma_t.minCoeff() < 0) fail_at(element, "its sigma_t is negative");
   check_albedo(element, albedo);
   return {scale * sigma_t, albedo};
 }

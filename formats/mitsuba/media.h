@@ -12,7 +12,7 @@ PhaseFunction import_phase(ImportContext& context, const Element& element);
 
 // volumes.cpp
 VolumeTexture import_volume(ImportContext& context, const Element& element);
-// A property that is a <volume>, a colour or a number.
+// A property that is a <volume>, a colour or a number; Error for a negative one.
 VolumeTexture volume_property(ImportContext& context, Properties& properties,
                               const std::string& name, const Color& otherwise);
 

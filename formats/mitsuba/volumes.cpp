@@ -100,7 +100,9 @@ VolumeTexture import_volume(ImportContext& context, const Element& element) {
 VolumeTexture volume_property(ImportContext& context, Properties& properties,
                               const std::string& name, const Color& otherwise) {
   if (const Element* object = properties.object(name)) return import_volume(context, *object);
-  return properties.color(name, otherwise);
+  const Color color = properties.color(name, otherwise);
+  if (color.minCoeff() < 0) fail_at(properties.element(), "its {} is negative", name);
+  return color;
 }
 
 }  // namespace waylight::mitsuba

@@ -206,6 +206,14 @@ TEST(MitsubaMedia, DamagedGridsNameGridAndElement) {
   EXPECT_NE(error.find("a.vol"), std::string::npos) << error;
 }
 
+TEST(MitsubaMedia, NegativeCoefficientsOfHeterogeneousMediaAreNamed) {
+  for (const char* name : {"sigma_t", "albedo", "emission"}) {
+    const std::string property = fmt::format("<float name=\"{}\" value=\"-1\"/>", name);
+    const std::string error = Content(Dialect::current).error_of(medium("heterogeneous", property));
+    EXPECT_NE(error.find(fmt::format("its {} is negative", name)), std::string::npos) << error;
+  }
+}
+
 TEST(MitsubaMedia, WrongMediaAreNamed) {
   struct Bad {
     const char* type;
@@ -224,7 +232,7 @@ TEST(MitsubaMedia, WrongMediaAreNamed) {
       {"homogeneous", "<rgb name=\"sigmaS\" value=\"-1\"/><rgb name=\"sigmaA\" value=\"1\"/>",
        "sigma_s is negative"},
       {"homogeneous", "<rgb name=\"sigmaT\" value=\"1\"/><rgb name=\"albedo\" value=\"1.5\"/>",
-       "outside of 0..1"},
+       "albedo is above 1"},
       {"homogeneous", "<float name=\"scale\" value=\"-1\"/>", "scale is negative"},
       {"homogeneous", "<rgb name=\"emission\" value=\"-1 0 0\"/>", "emission is negative"},
       {"homogeneous", kEmission + "<float name=\"emissionScale\" value=\"-1\"/>",
@@ -239,7 +247,7 @@ TEST(MitsubaMedia, WrongMediaAreNamed) {
        "did you mean \"gridvolume\"?"},
       {"heterogeneous",
        fmt::format(fmt::runtime(grid), "density") + fmt::format(fmt::runtime(grid), "albedo"),
-       "outside of 0..1"}};
+       "albedo is above 1"}};
   for (const Bad& bad : cases) {
     Content content(Dialect::old);
     write_grid(content.file("a.vol"));
