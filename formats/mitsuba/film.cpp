@@ -31,12 +31,16 @@ void import_gaussian(ImportContext& /*context*/, Properties& properties, FilmDes
   if (!properties.has("radius")) film.filter_radius = 4 * film.filter_stddev;
 }
 
+// B and C of [Mitchell, Netravali 1988]. Mitsuba 3 reads them by these names, but its manual calls
+// them A and B: so they are taken where there is an A and no C.
 void import_mitchell(ImportContext& context, Properties& properties, FilmDescription& film) {
   film.filter = FilterType::mitchell;
-  // B and C of [Mitchell, Netravali 1988]; Mitsuba 2 and 3 call them A and B.
   const bool old = context.document.old_dialect;
-  film.filter_b = properties.number(old ? "b" : "A", 1.0f / 3);
-  film.filter_c = properties.number(old ? "c" : "B", 1.0f / 3);
+  const bool as_documented = !old && !properties.has("C") && properties.has("A");
+  const char* b = old ? "b" : as_documented ? "A" : "B";
+  const char* c = old ? "c" : as_documented ? "B" : "C";
+  film.filter_b = properties.number(b, 1.0f / 3);
+  film.filter_c = properties.number(c, 1.0f / 3);
 }
 
 // Catmull-Rom is the member B = 0, C = 1/2 of the Mitchell family; Lanczos is near to it.

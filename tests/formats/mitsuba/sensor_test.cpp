@@ -108,6 +108,22 @@ TEST_F(SensorTest, GaussianFiltersEndAtFourDeviationsUnlessTheySayWhere) {
   EXPECT_EQ(radius(R"(<float name="stddev" value="1.5"/><float name="radius" value="3"/>)"), 3);
 }
 
+TEST_F(SensorTest, MitchellTakesBAndCOfBothDialectsOrTheNewOnesManualsAAndB) {
+  const auto mitchell = [&](const std::string& children, const std::string& version) {
+    const FilmDescription f =
+        film("<rfilter type=\"mitchell\">" + children + "</rfilter>", version);
+    return Vec2(f.filter_b, f.filter_c);
+  };
+  const std::string b = R"(<float name="B" value="0.2"/>)", c = R"(<float name="C" value="0.4"/>)";
+  for (const char* version : {"0.6.0", "3.0.0"}) {
+    EXPECT_EQ(mitchell(b + c, version), Vec2(0.2f, 0.4f)) << version;
+    EXPECT_EQ(mitchell(b, version), Vec2(0.2f, 1.0f / 3)) << version;
+  }
+  const std::string a = R"(<float name="A" value="0.1"/>)";
+  EXPECT_EQ(mitchell(a + b, "3.0.0"), Vec2(0.1f, 0.2f));
+  EXPECT_THROW(mitchell(a + b + c, "3.0.0"), Error);
+}
+
 TEST_F(SensorTest, FilterThatIsNotImplementedIsReplacedOnlyWhenAsked) {
   const std::string body = "<film type=\"hdrfilm\"><rfilter type=\"lanczos\"/></film>";
   EXPECT_TRUE(mentions(sensor_error(body), "--lenient"));
