@@ -40,13 +40,29 @@ Color parse_samples(const Element& element, const std::string& text) {
   return color_of_samples(element, wavelengths, values);
 }
 
-Color parse_spectrum(const Document& document, const Element& element) {
-  if (!element.type.empty()) return parse_spectrum_plugin(document, element);
-  if (element.attribute("filename"))
-    fail_at(element, "spectra in files are not read; write the wavelength:value pairs here");
+Color parse_plain_spectrum(const Element& element) {
   const std::string& text = required_attribute(element, "value");
   return text.find(':') == std::string::npos ? parse_triple(element, text)
                                              : parse_samples(element, text);
+}
+
+// What a <spectrum> may have, beside an intent, depends on its type.
+void check_attributes(const Element& element) {
+  static const std::map<std::string, std::string> kRead = {
+      {"", "value"}, {"uniform", "value"}, {"d65", "scale"}};
+  const auto read = kRead.find(element.type);
+  for (const auto& [name, value] : element.attributes)
+    if (name != "intent" && (read == kRead.end() || name != read->second))
+      fail_at(element, "takes no attribute \"{}\"; leave it out", name);
+}
+
+Color parse_spectrum(const Document& document, const Element& element) {
+  if (element.attribute("filename"))
+    fail_at(element, "spectra in files are not read; write the wavelength:value pairs here");
+  const Color color = element.type.empty() ? parse_plain_spectrum(element)
+                                           : parse_spectrum_plugin(document, element);
+  check_attributes(element);
+  return color;
 }
 
 Color parse_blackbody(const Element& element) {

@@ -152,6 +152,18 @@ TEST_F(PropertiesTest, WrongSpectraNameWhatIsWrong) {
   }
 }
 
+TEST_F(PropertiesTest, AttributesThatASpectrumDoesNotReadAreErrors) {
+  expect_near(color(R"(<spectrum name="c" type="uniform" value=".5"/>)"), {0.5f, 0.5f, 0.5f});
+  expect_near(color(R"(<spectrum name="c" type="d65" scale="5"/>)"), {5, 5, 5});
+  for (const char* child :
+       {R"(<spectrum name="c" value="1" scale="5"/>)",
+        R"(<spectrum name="c" type="uniform" value="1" scale="5"/>)",
+        R"(<spectrum name="c" type="d65" value="5"/>)",
+        R"(<spectrum name="c" type="blackbody" scale="5"><float name="temperature" value="5000"/>
+           </spectrum>)"})
+    EXPECT_TRUE(mentions(error_of([&] { color(child); }), "takes no attribute")) << child;
+}
+
 TEST_F(PropertiesTest, TheIntentOfAColorIsWithoutEffect) {
   for (const char* intent : {"reflectance", "illuminant"})
     expect_near(color(fmt::format("<rgb name=\"c\" value=\".5\" intent=\"{}\"/>", intent)),
