@@ -124,6 +124,34 @@ std::variant<HomogeneousMedium, HeterogeneousMedium> import_heterogeneous(Import
   return medium;
 }
 
+// The longest way through the box of a grid.
+float extent_of(const VolumeTexture& volume) {
+  const auto* grid = std::get_if<std::shared_ptr<const VolumeGrid>>(&volume);
+  return grid ? (*grid)->grid_to_world.topLeftCorner<3, 3>().norm() : 0;
+}
+
+void check_finite(const Element& element, float extinction) {
+  if (!std::isfinite(extinction))
+    fail_at(element, "its extinction is not finite; give it a smaller scale");
+}
+
+void check_extinction(const Element& element, const HomogeneousMedium& medium) {
+  check_finite(element, medium.sigma_t.sum());
+}
+
+void check_extinction(const Element& element, const HeterogeneousMedium& medium) {
+  // Beyond some 2^24, steps between collisions vanish in the rounding of distances along a ray.
+  constexpr float kMostDepth = 1e6f;
+  const float most = medium.scale * most_of(medium.density);
+  check_finite(element, most);
+  const float depth = most * extent_of(medium.density);
+  if (!(depth <= kMostDepth))
+    fail_at(element,
+            "its grid is up to {:g} mean free paths thick, at most {:g} are possible; give it a "
+            "smaller scale",
+            depth, kMostDepth);
+}
+
 using MediumImporter = std::variant<HomogeneousMedium, HeterogeneousMedium> (*)(ImportContext&,
                                                                                 Properties&);
 const std::map<std::string, MediumImporter> kImporters = {{"homogeneous", import_homogeneous},
@@ -145,6 +173,7 @@ Medium import_new(ImportContext& context, const Element& element) {
   Medium medium;
   medium.name = label_of(element);
   medium.coefficients = importer(context, properties);
+  std::visit([&](const auto& m) { check_extinction(element, m); }, medium.coefficients);
   medium.phase = phase_property(context, properties);
   const bool varies = std::holds_alternative<HeterogeneousMedium>(medium.coefficients);
   medium.emission = emission_property(context, properties, varies);

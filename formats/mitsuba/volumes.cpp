@@ -43,6 +43,8 @@ void rescale(Properties& properties, VolumeGrid& grid) {
   const float most = grid.voxels.range().most;
   if (!(wanted >= 0)) fail_at(properties.element(), "its max_value is negative");
   if (!(most > 0)) return;
+  if (!std::isfinite(wanted / most))
+    fail_at(properties.element(), "its max_value is too large for a grid of at most {:g}", most);
   grid.voxels.scale(wanted / most);
 }
 

@@ -9,13 +9,13 @@ std::string medium(const std::string& type, const std::string& body = "") {
   return fmt::format("<medium type=\"{}\">{}</medium>", type, body);
 }
 
-// Two voxels along x, 1 and 3, in the box [0, 2] x [0, 1] x [0, 1].
-void write_grid(const std::string& path) {
+// Two voxels along x, 1 and 3 times a scale, in the box [0, 2] x [0, 1] x [0, 1].
+void write_grid(const std::string& path, float scale = 1) {
   std::ofstream out(path, std::ios::binary);
   const auto put = [&](const auto& v) { out.write(reinterpret_cast<const char*>(&v), sizeof v); };
   out.write("VOL\3", 4);
   for (const int32_t v : {1, 2, 1, 1, 1}) put(v);
-  for (const float v : {0.0f, 0.0f, 0.0f, 2.0f, 1.0f, 1.0f, 1.0f, 3.0f}) put(v);
+  for (const float v : {0.0f, 0.0f, 0.0f, 2.0f, 1.0f, 1.0f, scale, 3 * scale}) put(v);
 }
 
 const std::string kGrid = "<string name=\"filename\" value=\"a.vol\"/>";
@@ -212,6 +212,33 @@ TEST(MitsubaMedia, NegativeCoefficientsOfHeterogeneousMediaAreNamed) {
     const std::string error = Content(Dialect::current).error_of(medium("heterogeneous", property));
     EXPECT_NE(error.find(fmt::format("its {} is negative", name)), std::string::npos) << error;
   }
+}
+
+TEST(MitsubaMedia, ExtinctionBeyondWhatFlightsResolveIsNamed) {
+  const std::string cloud =
+      "<volume name=\"density\" type=\"gridvolume\">" + kGrid + "</volume>" + kAlbedo;
+  const auto error = [&](const std::string& type, const std::string& body, const char* scale) {
+    Content content(Dialect::old);
+    write_grid(content.file("a.vol"));
+    return content.error_of(
+        medium(type, body + fmt::format("<float name=\"scale\" value=\"{}\"/>", scale)));
+  };
+  EXPECT_EQ(error("heterogeneous", cloud, "1e5"), "no error");
+  EXPECT_NE(error("heterogeneous", cloud, "1e6").find("mean free paths"), std::string::npos);
+  EXPECT_NE(error("heterogeneous", cloud, "2e38").find("not finite"), std::string::npos);
+  const std::string fog =
+      "<float name=\"sigmaT\" value=\"9\"/><float name=\"albedo\" value=\"1\"/>";
+  EXPECT_EQ(error("homogeneous", fog, "1e30"), "no error");
+  EXPECT_NE(error("homogeneous", fog, "2e38").find("not finite"), std::string::npos);
+}
+
+TEST(MitsubaMedia, MaxValueTooLargeForItsGridIsNamed) {
+  Content content(Dialect::current);
+  write_grid(content.file("a.vol"), 1e-5f);
+  const std::string error = content.error_of(
+      medium("heterogeneous", "<volume name=\"sigma_t\" type=\"gridvolume\">" + kGrid +
+                                  "<float name=\"max_value\" value=\"1e38\"/></volume>"));
+  EXPECT_NE(error.find("max_value is too large"), std::string::npos) << error;
 }
 
 TEST(MitsubaMedia, WrongMediaAreNamed) {
