@@ -123,17 +123,22 @@ bool PathTracer::too_deep(const State& state) const {
 
 bool PathTracer::visit(Walk& walk, State& state, const SurfacePoint& at) const {
   add_emission(walk, state, at);
-  if (too_deep(state) && !scene_.may_be_transparent(at)) return false;
+  const bool ends = too_deep(state) && !scene_.may_be_transparent(at);
+  if (ends && state.edges > 1) return false;
   const DirectionSampler directions(scene_, caches_, options_.directions, at, -state.ray.direction);
   if (state.edges == 1) {
     walk.record.albedo = directions.resolved().bsdf.mean_reflectance();
     walk.record.normal = directions.resolved().frame.n;
     walk.record.depth = at.t;
   }
-  return go_on(walk, state, at, directions);
+  return !ends && go_on(walk, state, at, directions);
 }
 
 bool PathTracer::visit(Walk& walk, State& state, const MediumPoint& at) const {
+  if (state.edges == 1) {
+    walk.record.albedo = at.albedo;
+    walk.record.depth = at.t;
+  }
   if (too_deep(state) || is_black(state.throughput)) return false;
   const MediumGuides& guides = caches_.media();
   const bool asks = !guides.empty() && (options_.phases.guide != PhaseGuide::none ||
@@ -142,10 +147,6 @@ bool PathTracer::visit(Walk& walk, State& state, const MediumPoint& at) const {
                                 asks ? &guides.at(at.index, at.p) : nullptr,
                                 asks ? &guides.phase(at.index) : nullptr,
                                 options_.phases.for_medium(at.medium->homogeneous()));
-  if (state.edges == 1) {
-    walk.record.albedo = at.albedo;
-    walk.record.depth = at.t;
-  }
   return go_on(walk, state, at, directions);
 }
 

@@ -29,6 +29,23 @@ SceneDescription glass_box() {
   return scene;
 }
 
+TEST(PathTracer, RecordsTheFirstVertexOfPathsThatEndThere) {
+  SceneDescription description;
+  testing::add_shape(description, testing::rectangle({-9, -9, 3}, {0, 18, 0}, {18, 0, 0}),
+                     testing::add_two_sided(description, "grey", DiffuseMaterial{Texture(0.25f)}));
+  testing::look_along_z(description, {0, 0, 0}, 8, 8);
+  const Scene scene(std::move(description));
+  const GuidingCaches caches(nullptr, {}, scene.description().materials);
+  PathTracerOptions options;
+  options.max_depth = 1;
+  const PathTracer tracer(scene, caches, options);
+  const PathRecord path = tracer.trace({Vec3(1, 0, 0), Vec3::UnitZ()}, Sampler(1, 2, 3));
+  EXPECT_NEAR(path.depth, 3, 1e-5f);
+  EXPECT_NEAR(std::abs(path.normal.z()), 1, 1e-5f);
+  EXPECT_EQ(path.albedo.x(), 0.25f);
+  EXPECT_EQ(path.scatterings, 0u);
+}
+
 TEST(GuidedRoulette, SparesPathsBetweenGlassWallsThatAreWorthAsMuchAsWhenTheyEntered) {
   const Scene scene(glass_box());
   const GuideCache cache = evenly_lit();
