@@ -103,7 +103,7 @@ FilmDescription import_film(ImportContext& context, const Element& element) {
   film.width = pixels(element, properties, "width", film.width, 1);
   film.height = pixels(element, properties, "height", film.height, 1);
   import_crop(element, properties, film);
-  for (const Element* filter : properties.objects("rfilter")) import_filter(context, *filter, film);
+  if (const Element* filter = single(properties, "rfilter")) import_filter(context, *filter, film);
   properties.ignore(kOutputOptions);
   properties.finish();
   return film;

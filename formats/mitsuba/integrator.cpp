@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "formats/mitsuba/import_context.h"
+#include "formats/mitsuba/types.h"
 
 namespace waylight::mitsuba {
 namespace {
@@ -17,6 +18,12 @@ const std::vector<std::string> kOthers = {
     "vpl",     "photonmapper", "ao",         "depth"};
 // Hold another integrator and add channels or a stopping rule to it.
 const std::vector<std::string> kWrappers = {"moment", "aov", "adaptive", "irrcache"};
+const std::vector<std::string> kWrapperOptions = {
+    "aovs",      "block_size",         "clamp_neighbor", "clamp_screen",
+    "debug",     "gradients",          "hide_emitters",  "indirect_only",
+    "max_error", "max_sample_factor",  "overture",       "p_value",
+    "quality",   "quality_adjustment", "resolution",     "samples_per_pass",
+    "timeout"};
 
 bool is_one_of(const std::string& type, const std::vector<std::string>& types) {
   return std::find(types.begin(), types.end(), type) != types.end();
@@ -32,6 +39,14 @@ void warn_of_depths_only(const ImportContext& context, const Element& integrator
                            nearest ? fmt::format("; did you mean \"{}\"?", *nearest) : ""));
 }
 
+void import_wrapped(ImportContext& context, Properties& properties) {
+  const Element* nested = single(properties, "integrator");
+  if (!nested) fail_at(properties.element(), "needs a nested <integrator>");
+  properties.ignore(kWrapperOptions);
+  properties.finish();
+  import_integrator(context, *nested);
+}
+
 void check(const Element& integrator, const IntegratorDefaults& defaults) {
   if (defaults.max_depth < -1 || defaults.max_depth == 0)
     fail_at(integrator, "its max_depth must be at least 1, or -1 for no limit");
@@ -42,11 +57,7 @@ void check(const Element& integrator, const IntegratorDefaults& defaults) {
 
 void import_integrator(ImportContext& context, const Element& integrator) {
   Properties properties(context.document, integrator);
-  const std::vector<const Element*> nested = properties.objects("integrator");
-  if (is_one_of(integrator.type, kWrappers)) {
-    if (nested.empty()) fail_at(integrator, "needs a nested <integrator>");
-    return import_integrator(context, *nested.front());
-  }
+  if (is_one_of(integrator.type, kWrappers)) return import_wrapped(context, properties);
   IntegratorDefaults& defaults = context.scene.integrator;
   defaults.max_depth = integrator.type == "direct" ? 2 : properties.integer("max_depth", -1);
   defaults.rr_depth = properties.integer("rr_depth", defaults.rr_depth);

@@ -24,11 +24,8 @@ const std::map<std::string, PhaseImporter> kPhases = {{"hg", import_hg},
 
 // A nested <phase>, else the old dialect's g of the medium itself, else isotropic.
 PhaseFunction phase_property(ImportContext& context, Properties& medium) {
-  const std::vector<const Element*> nested = medium.objects("phase");
-  if (nested.size() > 1) fail_at(*nested[1], "a medium takes one phase function");
-  if (nested.empty())
-    return medium.has("g") ? henyey_greenstein(medium, 0) : PhaseFunction(IsotropicPhase{});
-  return import_phase(context, *nested[0]);
+  if (const Element* nested = single(medium, "phase")) return import_phase(context, *nested);
+  return medium.has("g") ? henyey_greenstein(medium, 0) : PhaseFunction(IsotropicPhase{});
 }
 
 float scale_property(Properties& properties) {

@@ -87,12 +87,12 @@ void import_sensor(ImportContext& context, const Element& sensor) {
     fail_at(sensor, "unknown sensor{}", did_you_mean(sensor.type, {"perspective", "thinlens"}));
   Properties properties(context.document, sensor);
   SensorDescription& result = context.scene.sensor;
-  for (const Element* film : properties.objects("film")) result.film = import_film(context, *film);
+  if (const Element* film = single(properties, "film")) result.film = import_film(context, *film);
   import_fov(sensor, properties, result);
   result.to_world = without_scale(context, sensor, properties.transform("to_world"));
   import_lens(sensor, properties, result);
   import_principal_point(properties, result);
-  for (const Element* medium : properties.objects("medium"))
+  if (const Element* medium = single(properties, "medium"))
     result.medium = import_medium(context, *medium);
   properties.ignore({"near_clip", "far_clip", "shutter_open", "shutter_close"});
   properties.ignore_objects({"sampler"});

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "formats/mitsuba/shape_geometry.h"
+#include "formats/mitsuba/types.h"
 
 namespace waylight::mitsuba {
 namespace {
@@ -19,14 +20,6 @@ Geometry import_geometry(ImportContext& context, Properties& properties) {
   if (type == "cylinder") return import_cylinder(context, properties);
   if (type == "sphere") return import_sphere(properties);
   return import_mesh_file(context, properties);
-}
-
-// The one nested object of a tag, or nullptr.
-const Element* single(Properties& properties, const std::string& tag) {
-  const std::vector<const Element*> found = properties.objects(tag);
-  if (found.size() > 1)
-    fail_at(properties.element(), "has {} <{}>, one is possible", found.size(), tag);
-  return found.empty() ? nullptr : found.front();
 }
 
 int import_boundary(ImportContext& context, Properties& properties, const std::string& side) {

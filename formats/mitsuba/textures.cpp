@@ -131,12 +131,11 @@ void tint(BitmapTexture& texture, const Color& factor) {
 
 // The old dialect's product of a texture, a colour or a number with a factor.
 Texture import_scale(ImportContext& context, Properties& properties) {
-  const std::vector<const Element*> nested = properties.objects("texture");
-  if (nested.size() > 1) fail_at(*nested[1], "\"scale\" takes one texture");
-  if (nested.empty() && !properties.has("value"))
+  const Element* nested = single(properties, "texture");
+  if (!nested && !properties.has("value"))
     fail_at(properties.element(), "needs a nested texture or a value");
-  Texture texture = nested.empty() ? Texture(properties.color("value", Color::Ones()))
-                                   : import_texture(context, *nested[0]);
+  Texture texture =
+      nested ? import_texture(context, *nested) : Texture(properties.color("value", Color::Ones()));
   const Color factor = properties.color("scale", Color::Ones());
   if ((factor == factor.x()).all())
     texture.scale *= factor.x();

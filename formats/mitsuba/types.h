@@ -1,5 +1,5 @@
 #pragma once
-// Choice among named things, with an error that names the nearest one.
+// Choice among named things, with an error that names the nearest one, and of single objects.
 
 #include "formats/mitsuba/properties.h"
 
@@ -32,6 +32,14 @@ Value choose(Properties& properties, const std::string& name,
   if (found != table.end()) return found->second;
   fail_at(properties.element(), "unknown {} \"{}\"{}", name, text,
           did_you_mean(text, names_of(table)));
+}
+
+// The one nested object of a tag, or nullptr.
+inline const Element* single(Properties& properties, const std::string& tag) {
+  const std::vector<const Element*> found = properties.objects(tag);
+  if (found.size() > 1)
+    fail_at(properties.element(), "has {} <{}>, one is possible", found.size(), tag);
+  return found.empty() ? nullptr : found.front();
 }
 
 // For messages: the id, or "<type>@line N".

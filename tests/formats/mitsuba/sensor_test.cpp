@@ -191,6 +191,24 @@ TEST_F(SensorTest, OtherIntegratorsAreAcceptedWithAWarning) {
                        "did you mean \"max_depth\""));
 }
 
+TEST_F(SensorTest, ASecondFilmFilterMediumOrIntegratorIsAnError) {
+  const std::string medium = "<medium type=\"homogeneous\"/>", film = "<film type=\"hdrfilm\"/>",
+                    filter = "<rfilter type=\"box\"/>", path = "<integrator type=\"path\"/>";
+  EXPECT_TRUE(mentions(sensor_error(film + film), "has 2 <film>, one is possible"));
+  EXPECT_TRUE(mentions(sensor_error(medium + medium), "has 2 <medium>"));
+  EXPECT_TRUE(mentions(sensor_error("<film type=\"hdrfilm\">" + filter + filter + "</film>"),
+                       "has 2 <rfilter>"));
+  EXPECT_TRUE(mentions(import_error("<integrator type=\"aov\">" + path + path + "</integrator>"),
+                       "has 2 <integrator>"));
+}
+
+TEST_F(SensorTest, PropertiesOfWrappersOfIntegratorsAreChecked) {
+  const std::string body = R"(<integrator type="aov"><string name="{}" value="d:depth"/>
+                              <integrator type="path"/></integrator>)";
+  EXPECT_EQ(import_error(fmt::format(fmt::runtime(body), "aovs")), "no error");
+  EXPECT_TRUE(mentions(import_error(fmt::format(fmt::runtime(body), "aovz")), "did you mean"));
+}
+
 TEST_F(SensorTest, TheFirstOfSeveralSensorsIsUsed) {
   const SceneDescription scene = import(R"(
     <sensor type="perspective"><float name="fov" value="90"/></sensor>
