@@ -119,8 +119,8 @@ class Renderer {
   }
 
  private:
+  // Samples between two looks at the error; fewer say little of light that is hard to find.
   static constexpr int kMaxPass = 16;
-  static constexpr int kMinSamplesOfError = 16;  // fewer say little of light that is hard to find
   static constexpr double kTimeOfPilot = 20;
   static constexpr int kPathsOfPilot = 16;
 
@@ -147,15 +147,15 @@ class Renderer {
     }));
   }
 
-  // Samples per pixel of the next pass; 0 when the render is done.
+  // Samples per pixel of the next pass; 0 when the render is done. The error is judged at
+  // multiples of kMaxPass alone: where checkpoints cut passes is up to the clock.
   int next_pass() const {
-    int count = std::min(done_, kMaxPass);
+    int count = std::min(done_, kMaxPass - done_ % kMaxPass);
     if (options_.spp > 0) count = std::min(count, options_.spp - done_);
     if (checkpoint_ < options_.checkpoints.size())
       count = std::min(count, std::max(1, passes_until(options_.checkpoints[checkpoint_])));
     if (options_.time > 0) count = std::min(count, passes_until(options_.time));
-    if (options_.error > 0 && done_ >= kMinSamplesOfError &&
-        film_.estimated_relmse() <= options_.error)
+    if (options_.error > 0 && done_ % kMaxPass == 0 && film_.estimated_relmse() <= options_.error)
       count = 0;
     return count;
   }
