@@ -59,11 +59,12 @@ Texture color_or_texture(ImportContext& context, Properties& properties, const s
   return Texture(properties.color(name, Color::Zero()));
 }
 
-// Pixels are left alone: files have values a little below 0 of colours that sRGB cannot show.
+// Of pictures that of their factor: files have pixels a little below 0 of colours that sRGB cannot
+// show, which are left alone.
 float least_value(const Texture& texture) {
   if (const auto* board = std::get_if<CheckerboardTexture>(&texture.source))
     return (texture.scale * board->color0.min(board->color1)).minCoeff();
-  return texture.constant() ? texture.mean().minCoeff() : 0;
+  return texture.constant() ? texture.mean().minCoeff() : texture.scale;
 }
 
 // One channel as grey.
@@ -137,10 +138,12 @@ Texture import_scale(ImportContext& context, Properties& properties) {
   Texture texture =
       nested ? import_texture(context, *nested) : Texture(properties.color("value", Color::Ones()));
   const Color factor = properties.color("scale", Color::Ones());
-  if ((factor == factor.x()).all())
+  if ((factor == factor.x()).all()) {
     texture.scale *= factor.x();
-  else
-    std::visit([&](auto& source) { tint(source, factor); }, texture.source);
+    return texture;
+  }
+  if (factor.minCoeff() < 0) fail_at(properties.element(), "its scale is a negative colour");
+  std::visit([&](auto& source) { tint(source, factor); }, texture.source);
   return texture;
 }
 

@@ -183,6 +183,20 @@ TEST(MitsubaTextures, ScaleMultipliesColoursBoardsAndPictures) {
   expect_color(scaled("<rgb name=\"value\" value=\".2 .4 .6\"/>", half).mean(), {.1f, .2f, .3f});
 }
 
+TEST(MitsubaTextures, ANegativeScaleOfAPictureIsAnError) {
+  for (const char* factor :
+       {"<float name=\"scale\" value=\"-1\"/>", "<rgb name=\"scale\" value=\"1 0 -1\"/>"}) {
+    Content content(Dialect::old);
+    write_picture(content.file("a.png"));
+    const std::string error = content.error_of(with_type(
+        "diffuse",
+        fmt::format("<texture type=\"scale\" name=\"reflectance\"><texture type=\"bitmap\">"
+                    "<string name=\"filename\" value=\"a.png\"/></texture>{}</texture>",
+                    factor)));
+    EXPECT_NE(error.find("negative"), std::string::npos) << error;
+  }
+}
+
 TEST(MitsubaTextures, WrongTexturesAreNamed) {
   const std::pair<const char*, const char*> cases[] = {
       {"<texture type=\"bitmep\" name=\"reflectance\"/>", "did you mean \"bitmap\"?"},
