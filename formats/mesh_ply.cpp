@@ -71,8 +71,8 @@ class PlyBody {
     const std::string_view digits = word.front() == '+' ? word.substr(1) : word;
     double value = 0;
     const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error == std::errc::invalid_argument || stop != digits.data() + digits.size())
-      fail("\"{}\": \"{}\" is not a number", path_, word.substr(0, 40));
+    if (error != std::errc() || stop != digits.data() + digits.size())
+      fail("\"{}\": \"{}\" is no number of double precision", path_, word.substr(0, 40));
     return value;
   }
 

@@ -203,6 +203,19 @@ TEST_F(ShapesTest, DamagedMeshNamesMeshAndElement) {
   EXPECT_TRUE(mentions(error, "scene.xml\":2") && mentions(error, "a.ply")) << error;
 }
 
+TEST_F(ShapesTest, PlyNumbersBeyondDoublePrecisionAreRefused) {
+  const auto error = [&](const std::string& x) {
+    put("a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+        "end_header\n0 0 0\n1 0 0\n0 " +
+            x + " 0\n3 0 1 2\n");
+    return import_error(file_shape("ply", "a.ply"));
+  };
+  EXPECT_EQ(error("1"), "no error");
+  EXPECT_TRUE(mentions(error("1e400"), "\"1e400\" is no number"));
+}
+
 // The numbers of one element would be counted with those of the other.
 TEST_F(ShapesTest, PlyWithTwoElementsOfANameIsRefused) {
   const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
