@@ -17,6 +17,7 @@ struct ImportContext {
   std::unordered_map<const Element*, int> materials, media;      // already imported, by identity
   std::map<std::string, std::shared_ptr<const Bitmap>> bitmaps;  // by path and colour space
   std::unordered_map<const Element*, uint32_t> groups;           // <shape type="shapegroup">
+  std::vector<Bounds> group_bounds = {};                         // of scene.groups
   int black_material = kNone;  // of emitters without BSDF, made when first needed
   int null_material = kNone, grey_material = kNone;  // made when first needed
 

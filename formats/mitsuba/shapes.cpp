@@ -4,6 +4,7 @@
 
 #include "formats/mitsuba/shape_geometry.h"
 #include "formats/mitsuba/types.h"
+#include "libguide/scene/scene_check.h"
 
 namespace waylight::mitsuba {
 namespace {
@@ -60,6 +61,17 @@ bool is_near(const TriangleMesh& mesh) {
                      [](const Vec3& p) { return is_near(p); });
 }
 
+// Whether a box is, where a transform puts it.
+bool is_near(const Bounds& box, const Mat4& to_world) {
+  if (!(to_world.array().abs() <= kMostCoordinate).all()) return false;
+  for (int corner = 0; corner < 8 && !box.empty(); ++corner) {
+    Eigen::Vector4f p = Eigen::Vector4f::Ones();
+    for (int i = 0; i < 3; ++i) p[i] = corner >> i & 1 ? box.max[i] : box.min[i];
+    if (!is_near(Vec3((to_world * p).head<3>()))) return false;
+  }
+  return true;
+}
+
 void check_coordinates(const Element& element, bool near) {
   if (!near)
     fail_at(element,
@@ -110,12 +122,14 @@ bool is_known(ImportContext& context, const Element& shape) {
   return false;
 }
 
-void add_to_group(ImportContext& context, const Element& element, ShapeGroup& group) {
+void add_to_group(ImportContext& context, const Element& element, ShapeGroup& group,
+                  Bounds& bounds) {
   if (!is_known(context, element)) return;
   if (element.type == "shapegroup" || element.type == "instance")
     fail_at(element, "a shape group cannot contain groups or instances");
   ImportedShape member = import_single(context, element);
   if (member.emitter) fail_at(*member.emitter, "a shape that is instanced cannot emit");
+  bounds.extend(shape_bounds(member.shape));
   group.shapes.push_back(static_cast<uint32_t>(context.scene.group_shapes.size()));
   context.scene.group_shapes.push_back(std::move(member.shape));
 }
@@ -125,10 +139,13 @@ uint32_t import_group(ImportContext& context, const Element& element) {
   if (known != context.groups.end()) return known->second;
   Properties properties(context.document, element);
   ShapeGroup group;
-  for (const Element* shape : properties.objects("shape")) add_to_group(context, *shape, group);
+  Bounds bounds;
+  for (const Element* shape : properties.objects("shape"))
+    add_to_group(context, *shape, group, bounds);
   properties.finish();
   const auto index = static_cast<uint32_t>(context.scene.groups.size());
   context.scene.groups.push_back(std::move(group));
+  context.group_bounds.push_back(bounds);
   context.groups[&element] = index;
   return index;
 }
@@ -141,7 +158,7 @@ void import_instance(ImportContext& context, const Element& element) {
   Instance instance;
   instance.group = import_group(context, *group);
   instance.to_world = properties.transform("to_world");
-  check_coordinates(element, (instance.to_world.array().abs() <= kMostCoordinate).all());
+  check_coordinates(element, is_near(context.group_bounds[instance.group], instance.to_world));
   properties.finish();
   context.scene.instances.push_back(instance);
 }

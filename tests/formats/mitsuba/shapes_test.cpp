@@ -252,7 +252,10 @@ TEST_F(ShapesTest, CoordinatesBeyondReasonNameTheShape) {
        {std::string("<shape type=\"sphere\"><float name=\"radius\" value=\"1e30\"/></shape>"),
         "<shape type=\"sphere\">" + far, "<shape type=\"cube\">" + far,
         R"(<shape type="obj"><string name="filename" value="a.obj"/>)" + far,
-        R"(<shape type="instance"><shape type="shapegroup"/>)" + far}) {
+        R"(<shape type="instance"><shape type="shapegroup"/>)" + far,
+        std::string(R"(<shape type="instance"><transform name="to_world"><scale value="1e9"/>
+            </transform><shape type="shapegroup"><shape type="sphere">
+            <float name="radius" value="1e9"/></shape></shape></shape>)")}) {
     const std::string error = import_error("\n" + body);
     EXPECT_TRUE(mentions(error, "scene.xml\":3: <shape") && mentions(error, "1e+15")) << error;
   }
