@@ -17,8 +17,10 @@ struct ImportContext {
   std::unordered_map<const Element*, int> materials, media;      // already imported, by identity
   std::map<std::string, std::shared_ptr<const Bitmap>> bitmaps;  // by path and colour space
   std::unordered_map<const Element*, uint32_t> groups;           // <shape type="shapegroup">
-  std::vector<Bounds> group_bounds = {};                         // of scene.groups
-  int black_material = kNone;  // of emitters without BSDF, made when first needed
+  std::unordered_map<const Element*, Texture> textures = {};
+  std::unordered_map<const Element*, VolumeTexture> volumes = {};
+  std::vector<Bounds> group_bounds = {};  // of scene.groups
+  int black_material = kNone;             // of emitters without BSDF, made when first needed
   int null_material = kNone, grey_material = kNone;  // made when first needed
 
   void warn(const std::string& message) const {
@@ -28,7 +30,7 @@ struct ImportContext {
 
 // textures.cpp
 // Mitsuba's v = 0 is the top row of a bitmap, here it is the bottom one: shapes carry 1 - v, and
-// to_uv, which acts on Mitsuba's, is put between two flips.
+// to_uv, which acts on Mitsuba's, is put between two flips. One element is imported once.
 Texture import_texture(ImportContext& context, const Element& element);
 // A property that is a texture, a colour or a number; Error for a negative one.
 Texture texture_property(ImportContext& context, Properties& properties, const std::string& name,

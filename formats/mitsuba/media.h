@@ -11,6 +11,7 @@ namespace waylight::mitsuba {
 PhaseFunction import_phase(ImportContext& context, const Element& element);
 
 // volumes.cpp
+// One element is imported once.
 VolumeTexture import_volume(ImportContext& context, const Element& element);
 // A property that is a <volume>, a colour or a number; Error for a negative one.
 VolumeTexture volume_property(ImportContext& context, Properties& properties,

@@ -188,11 +188,13 @@ std::shared_ptr<const Bitmap> bitmap_property(ImportContext& context, Properties
 
 Texture import_texture(ImportContext& context, const Element& element) {
   if (element.tag != "texture") fail_at(element, "stands where a texture is needed");
+  const auto known = context.textures.find(&element);
+  if (known != context.textures.end()) return known->second;
   Properties properties(context.document, element);
   const TextureImporter importer = importer_of(element, kImporters, "texture");
   const Texture texture = importer(context, properties);
   properties.finish();
-  return texture;
+  return context.textures[&element] = texture;
 }
 
 Texture texture_property(ImportContext& context, Properties& properties, const std::string& name,

@@ -92,11 +92,13 @@ const std::map<std::string, VolumeImporter> kImporters = {{"gridvolume", import_
 
 VolumeTexture import_volume(ImportContext& context, const Element& element) {
   if (element.tag != "volume") fail_at(element, "stands where a <volume> is needed");
+  const auto known = context.volumes.find(&element);
+  if (known != context.volumes.end()) return known->second;
   Properties properties(context.document, element);
   const VolumeImporter importer = importer_of(element, kImporters, "volume");
-  VolumeTexture volume = importer(context, properties);
+  const VolumeTexture volume = importer(context, properties);
   properties.finish();
-  return volume;
+  return context.volumes[&element] = volume;
 }
 
 VolumeTexture volume_property(ImportContext& context, Properties& properties,

@@ -46,6 +46,7 @@ class Content {
     std::ofstream(file("scene.xml"))
         << fmt::format("<scene version=\"{}\">\n{}\n</scene>", version, body);
     document_ = parse_document(file("scene.xml"), options_);
+    forget_elements();
     for (const Element& element : document_.root.children) import(element);
   }
   std::string error_of(const std::string& body) {
@@ -84,6 +85,13 @@ class Content {
   std::vector<Color> radiances;  // of area lights, at uv (0, 0)
 
  private:
+  // Those of the document before are gone, and others may stand in their places.
+  void forget_elements() {
+    context_.materials.clear();
+    context_.media.clear();
+    context_.textures.clear();
+    context_.volumes.clear();
+  }
   void import(const Element& element) {
     if (element.tag == "bsdf") import_material(context_, element);
     if (element.tag == "medium") import_medium(context_, element);

@@ -184,6 +184,19 @@ TEST(MitsubaMedia, EmissionMayBeAGridOfAHeterogeneousMedium) {
             std::string::npos);
 }
 
+TEST(MitsubaMedia, OneGridServesAllWhoReferToIt) {
+  Content content(Dialect::current);
+  write_grid(content.file("a.vol"));
+  content.import("<volume type=\"gridvolume\" id=\"v\">" + kGrid + "</volume>" +
+                 medium("heterogeneous",
+                        "<ref name=\"sigma_t\" id=\"v\"/>"
+                        "<ref name=\"emission\" id=\"v\"/>"));
+  const Medium& glowing = content.scene.media.back();
+  using Grid = std::shared_ptr<const VolumeGrid>;
+  EXPECT_EQ(std::get<Grid>(std::get<HeterogeneousMedium>(glowing.coefficients).density),
+            std::get<Grid>(glowing.emission.radiance));
+}
+
 TEST(MitsubaMedia, EmissionOfAMediumThatDoesNotAbsorbIsWarnedOf) {
   const std::string white = "<float name=\"albedo\" value=\"1\"/>";
   for (const char* type : {"homogeneous", "heterogeneous"}) {

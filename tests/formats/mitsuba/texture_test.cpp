@@ -125,6 +125,21 @@ TEST(MitsubaTextures, APictureIsReadOncePerColourSpace) {
   EXPECT_NE(first, raw);
 }
 
+TEST(MitsubaTextures, OnePictureServesAllWhoReferToIt) {
+  Content content(Dialect::current);
+  write_picture(content.file("a.png"));
+  content.import(
+      "<texture type=\"bitmap\" id=\"t\"><string name=\"filename\" value=\"a.png\"/>"
+      "<string name=\"channel\" value=\"r\"/></texture>" +
+      with_type("diffuse", "<ref name=\"reflectance\" id=\"t\"/>") +
+      with_type("diffuse", "<ref name=\"reflectance\" id=\"t\"/>"));
+  const auto bitmap = [&](int material) {
+    const auto& diffuse = std::get<DiffuseMaterial>(content.scene.materials.at(material).model);
+    return std::get<BitmapTexture>(diffuse.reflectance.source).bitmap;
+  };
+  EXPECT_EQ(bitmap(0), bitmap(1));
+}
+
 // color0 where both coordinates are in the same half of Mitsuba's uv, v counted from the top.
 TEST(MitsubaTextures, CheckerboardHasItsFirstColourAtMitsubasOrigin) {
   for (const Dialect dialect : kBoth) {
