@@ -130,6 +130,9 @@ DistantDisk make_sun(const ClearSkyParameters& p) {
   if (radius >= 0.5 * std::numbers::pi)
     fail("sky: the sun would fill half the sky; make it smaller");
   const float cos_angle = static_cast<float>(std::cos(radius));
+  if (!(cos_angle < 1))
+    fail("sky: sun radius scale {} makes a point of the sun; use a directional light for that",
+         p.sun_radius_scale);
   // Over the solid angle that the rounded cosine stands for, the irradiance is that of the true
   // sun.
   const double sun_height = 2 * std::pow(std::sin(0.5 * kSunRadius), 2);

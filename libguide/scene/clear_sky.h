@@ -14,7 +14,8 @@ struct ClearSkyParameters {
   Vec3 sun_direction = Vec3::UnitY();  // unit, towards the sun, in the sky's own axes (y is up)
   float turbidity = 3;                 // 2 (very clear) .. 10 (hazy)
   float sky_scale = 1, sun_scale = 1;  // >= 0
-  float sun_radius_scale = 1;  // in (0, 100]: of the angular radius 0.2666 degrees; irradiance kept
+  // In (0.05, 100]: of the angular radius 0.2666 degrees; irradiance kept. Below, its cosine is 1.
+  float sun_radius_scale = 1;
   Mat3 to_world = Mat3::Identity();  // rotation
   int resolution = 512;              // width of the picture in pixels, height is half, >= 8
 };

@@ -100,8 +100,12 @@ TEST(ClearSky, RefusesWhatTheModelDoesNotCover) {
   EXPECT_THROW(bake_clear_sky(at_elevation(-1)), Error);
   EXPECT_THROW(bake_clear_sky(at_elevation(30, 1)), Error);
   ClearSkyParameters p = at_elevation(30);
-  p.sun_radius_scale = 0;
-  EXPECT_THROW(make_sun(p), Error);
+  for (const float no_disk : {0.0f, 0.03f}) {  // the cosine of the latter rounds to one
+    p.sun_radius_scale = no_disk;
+    EXPECT_THROW(make_sun(p), Error);
+  }
+  p.sun_radius_scale = 0.06f;
+  EXPECT_LT(make_sun(p).cos_angle, 1);
 }
 
 TEST(SolarSpectrum, WhitePointIsWhite) {
