@@ -16,6 +16,20 @@ std::vector<bool> transparent_materials(const std::vector<Material>& materials) 
   return result;
 }
 
+// Whether rays that leave a scene see anything of an emitter.
+struct Shines {
+  bool operator()(const ConstantEnvironment& light) const { return !is_black(light.radiance); }
+  bool operator()(const DistantDisk& light) const { return !is_black(light.radiance); }
+  bool operator()(const EnvironmentMap& light) const {
+    const auto& pixels = light.bitmap->pixels;
+    return light.scale > 0 && !std::all_of(pixels.begin(), pixels.end(), is_black);
+  }
+  template <typename Other>
+  bool operator()(const Other&) const {
+    return false;
+  }
+};
+
 // Of a light's distance: what a shadow ray leaves out at its far end.
 constexpr float kShadowMargin = 1e-4f;
 
@@ -220,5 +234,12 @@ bool Scene::has_lights() const {
 }
 
 bool Scene::has_distant_light() const { return impl_->lights.has_distant(); }
+
+bool Scene::has_environment() const {
+  const auto& emitters = description().emitters;
+  return std::any_of(emitters.begin(), emitters.end(), [](const EmitterDescription& emitter) {
+    return std::visit(Shines(), emitter);
+  });
+}
 
 }  // namespace waylight

@@ -124,6 +124,7 @@ class Scene {
   double emitter_power() const;    // W, mean of the colour channels; of media none
   bool has_lights() const;         // some emitter has power, or some medium emits
   bool has_distant_light() const;  // and some that has is not within the scene's bounds
+  bool has_environment() const;    // some ray that leaves the scene meets light
 
  private:
   Color straight_transmission(const SurfacePoint& at, const Vec3& direction) const;

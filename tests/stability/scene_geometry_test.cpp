@@ -246,6 +246,17 @@ TEST(EmptyScene, AnswersEveryQuestion) {
   EXPECT_EQ(scene.environment_pdf(Vec3::UnitX()), 0);
 }
 
+TEST(EmptyScene, HasAnEnvironmentThatIsSeenAndLightsNothing) {
+  SceneDescription description;
+  description.emitters.push_back(ConstantEnvironment{Color::Zero()});
+  EXPECT_FALSE(Scene(description).has_environment());
+  description.emitters.push_back(ConstantEnvironment{Color::Ones()});
+  const Scene scene(std::move(description));
+  EXPECT_TRUE(scene.has_environment());
+  EXPECT_FALSE(scene.has_lights());
+  EXPECT_EQ(scene.environment(Vec3::UnitX()).x(), 1);
+}
+
 TEST(EmptyScene, MeshWithoutTrianglesIsAllowed) {
   const Scene scene(scene_of({shape(TriangleMesh{}), shape(square(1, 0))}));
   EXPECT_EQ(scene.intersect({{0.3f, 0.2f, 1}, {0, 0, -1}})->shape, 1u);

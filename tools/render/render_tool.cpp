@@ -149,10 +149,13 @@ SceneDescription load_scene_of(const RenderArguments& arguments, const RenderOpt
   return load_scene(scene, run);
 }
 
-std::unique_ptr<Scene> build_lit_scene(SceneDescription description,
+// A scene without surfaces has an environment that lights nothing, but is seen.
+std::unique_ptr<Scene> build_lit_scene(SceneDescription description, const RenderOptions& options,
                                        const SceneArguments& arguments, const ToolRun& run) {
   std::unique_ptr<Scene> scene = build_scene(std::move(description), arguments, run);
-  if (!scene->has_lights())
+  const bool sees_light =
+      scene->has_environment() && !tracer_options(*scene, options).hide_emitters;
+  if (!scene->has_lights() && !sees_light)
     run.control.warn(fmt::format(
         "\"{}\": no emitter sends light into the scene; the image will be black", arguments.path));
   return scene;
@@ -168,7 +171,7 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
   Provenance provenance = provenance_of(run, tool, options.seed, arguments.scene, description.hash);
   provenance.parents = loaded.parents;
   const std::unique_ptr<Scene> scene =
-      build_lit_scene(std::move(description), arguments.scene, run);
+      build_lit_scene(std::move(description), options, arguments.scene, run);
   RenderSummary summary;
   // Pictures of the fluence show the mean radiance.
   const float exposure = options.fluence ? -std::log2(4 * kPi) : 0.0f;
