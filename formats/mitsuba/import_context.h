@@ -35,6 +35,9 @@ Texture import_texture(ImportContext& context, const Element& element);
 // A property that is a texture, a colour or a number; Error for a negative one.
 Texture texture_property(ImportContext& context, Properties& properties, const std::string& name,
                          const Texture& otherwise);
+// That of a reflectance or transmittance, which the renderer holds at 1: a warning above.
+Texture reflectance_property(ImportContext& context, Properties& properties,
+                             const std::string& name, const Texture& otherwise);
 
 // materials.cpp: index into scene.materials; one element is imported once. Unknown types: Error, or
 // with `lenient` grey diffuse and a warning.

@@ -10,8 +10,8 @@ struct Glass {
 
 Glass glass(ImportContext& context, Properties& properties) {
   return {relative_ior(properties, "bk7"),
-          texture_property(context, properties, "specular_reflectance", Texture(1.0f)),
-          texture_property(context, properties, "specular_transmittance", Texture(1.0f))};
+          reflectance_property(context, properties, "specular_reflectance", Texture(1.0f)),
+          reflectance_property(context, properties, "specular_transmittance", Texture(1.0f))};
 }
 
 }  // namespace

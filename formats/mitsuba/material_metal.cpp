@@ -36,7 +36,8 @@ MaterialModel import_conductor(ImportContext& context, Properties& properties) {
   ignore_alpha(context, properties);
   const ComplexIor ior = complex_ior(context, properties);
   return ConductorMaterial{
-      ior.eta, ior.k, texture_property(context, properties, "specular_reflectance", Texture(1.0f))};
+      ior.eta, ior.k,
+      reflectance_property(context, properties, "specular_reflectance", Texture(1.0f))};
 }
 
 MaterialModel import_rough_conductor(ImportContext& context, Properties& properties) {
@@ -45,7 +46,7 @@ MaterialModel import_rough_conductor(ImportContext& context, Properties& propert
   return RoughConductorMaterial{
       ior.eta,
       ior.k,
-      texture_property(context, properties, "specular_reflectance", Texture(1.0f)),
+      reflectance_property(context, properties, "specular_reflectance", Texture(1.0f)),
       r.alpha_u,
       r.alpha_v,
       r.distribution};

@@ -9,16 +9,17 @@ namespace waylight::mitsuba {
 MaterialModel import_diffuse(ImportContext& context, Properties& properties) {
   const DiffuseMaterial m;
   // Both names are the old dialect's.
-  const Texture alias = texture_property(context, properties, "diffuse_reflectance", m.reflectance);
-  return DiffuseMaterial{texture_property(context, properties, "reflectance", alias)};
+  const Texture alias =
+      reflectance_property(context, properties, "diffuse_reflectance", m.reflectance);
+  return DiffuseMaterial{reflectance_property(context, properties, "reflectance", alias)};
 }
 
 MaterialModel import_phong(ImportContext& context, Properties& properties) {
   PhongMaterial m;
   m.diffuse_reflectance =
-      texture_property(context, properties, "diffuse_reflectance", m.diffuse_reflectance);
+      reflectance_property(context, properties, "diffuse_reflectance", m.diffuse_reflectance);
   m.specular_reflectance =
-      texture_property(context, properties, "specular_reflectance", m.specular_reflectance);
+      reflectance_property(context, properties, "specular_reflectance", m.specular_reflectance);
   m.exponent = texture_property(context, properties, "exponent", m.exponent);
   return m;
 }
@@ -31,9 +32,9 @@ MaterialModel import_ward(ImportContext& context, Properties& properties) {
   WardMaterial m;
   m.variant = choose(properties, "variant", kVariants, "balanced");
   m.diffuse_reflectance =
-      texture_property(context, properties, "diffuse_reflectance", m.diffuse_reflectance);
+      reflectance_property(context, properties, "diffuse_reflectance", m.diffuse_reflectance);
   m.specular_reflectance =
-      texture_property(context, properties, "specular_reflectance", m.specular_reflectance);
+      reflectance_property(context, properties, "specular_reflectance", m.specular_reflectance);
   const Texture alpha = texture_property(context, properties, "alpha", m.alpha_u);
   m.alpha_u = texture_property(context, properties, "alpha_u", alpha);
   m.alpha_v = texture_property(context, properties, "alpha_v", alpha);

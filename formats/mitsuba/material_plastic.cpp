@@ -12,9 +12,9 @@ void import_coat(ImportContext& context, Properties& properties, Plastic& m) {
     fail_at(properties.element(), "its int_ior must be above its ext_ior, the coat is denser");
   m.nonlinear = properties.boolean("nonlinear", false);
   m.diffuse_reflectance =
-      texture_property(context, properties, "diffuse_reflectance", Texture(0.5f));
+      reflectance_property(context, properties, "diffuse_reflectance", Texture(0.5f));
   m.specular_reflectance =
-      texture_property(context, properties, "specular_reflectance", Texture(1.0f));
+      reflectance_property(context, properties, "specular_reflectance", Texture(1.0f));
 }
 
 }  // namespace

@@ -204,4 +204,14 @@ Texture texture_property(ImportContext& context, Properties& properties, const s
   return texture;
 }
 
+Texture reflectance_property(ImportContext& context, Properties& properties,
+                             const std::string& name, const Texture& otherwise) {
+  const Texture texture = texture_property(context, properties, name, otherwise);
+  constexpr float kOne = 1.001f;  // white, as the samples of a spectrum give it
+  if (properties.has(name) && texture.constant() && texture.mean().maxCoeff() > kOne)
+    context.warn(
+        fmt::format("{}: its {} is above 1 and is held there", properties.element().where(), name));
+  return texture;
+}
+
 }  // namespace waylight::mitsuba

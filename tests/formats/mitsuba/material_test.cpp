@@ -221,5 +221,20 @@ TEST(MitsubaMaterials, WrongParametersAreNamed) {
   }
 }
 
+TEST(MitsubaMaterials, AReflectanceAboveOneIsWarnedOf) {
+  const auto warnings = [](const std::string& type, const std::string& body) {
+    Content content(Dialect::current);
+    content.import(with_type(type, body));
+    return content.warnings;
+  };
+  const std::vector<std::string> bright =
+      warnings("diffuse", "<rgb name=\"diffuse_reflectance\" value=\"1 1.5 1\"/>");
+  ASSERT_EQ(bright.size(), 1u);
+  EXPECT_NE(bright[0].find("its diffuse_reflectance is above 1"), std::string::npos) << bright[0];
+  EXPECT_EQ(warnings("dielectric", "<float name=\"specular_transmittance\" value=\"2\"/>").size(),
+            1u);
+  EXPECT_TRUE(warnings("diffuse", "<float name=\"reflectance\" value=\"1\"/>").empty());
+}
+
 }  // namespace
 }  // namespace waylight::mitsuba
