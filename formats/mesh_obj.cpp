@@ -1,8 +1,10 @@
 #include <tiny_obj_loader.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <unordered_map>
 
 #include "formats/file_bytes.h"
 #include "formats/mesh_repair.h"
@@ -38,9 +40,15 @@ class ObjBuilder {
  private:
   static constexpr uint32_t kAbsent = ~0u;
 
-  // A vertex made from a position; those of the same position form a list.
-  struct Variant {
-    uint32_t uv, normal, next;
+  // What a vertex of the mesh is made of: indices of its position, texture coordinate and normal.
+  using Corner = std::array<uint32_t, 3>;
+  struct CornerHash {
+    size_t operator()(const Corner& corner) const {
+      uint64_t hash = 0;  // odd multiplier of the golden ratio [Knuth, TAOCP 3, 6.4]
+      for (const uint32_t index : corner)
+        hash = (hash ^ index) * 0x9e3779b97f4a7c15, hash ^= hash >> 32;
+      return hash;
+    }
   };
 
   // 1-based, or negative: counted back from the latest; 0 stands for absent.
@@ -59,30 +67,24 @@ class ObjBuilder {
                             : kAbsent;
     const uint32_t n =
         corner.normal_index ? resolve(corner.normal_index, normals_.size(), "normal") : kAbsent;
-    if (first_variant_.size() < positions_.size())
-      first_variant_.resize(positions_.size(), kAbsent);
-    for (uint32_t i = first_variant_[p]; i != kAbsent; i = variants_[i].next)
-      if (variants_[i].uv == uv && variants_[i].normal == n) return i;
-    return add_variant(p, uv, n);
+    const auto index = static_cast<uint32_t>(mesh_.positions.size());
+    const auto [known, is_new] = vertices_.try_emplace({p, uv, n}, index);
+    if (is_new) add_vertex(p, uv, n);
+    return known->second;
   }
 
-  uint32_t add_variant(uint32_t p, uint32_t uv, uint32_t n) {
-    const uint32_t index = static_cast<uint32_t>(variants_.size());
-    variants_.push_back({uv, n, first_variant_[p]});
-    first_variant_[p] = index;
+  void add_vertex(uint32_t p, uint32_t uv, uint32_t n) {
     mesh_.positions.push_back(positions_[p]);
     mesh_.uvs.push_back(uv == kAbsent ? Vec2(0, 0) : uvs_[uv]);
     mesh_.normals.push_back(n == kAbsent ? Vec3(0, 0, 0) : normals_[n]);
     has_uvs_ |= uv != kAbsent;
     has_normals_ |= n != kAbsent;
-    return index;
   }
 
   std::string path_;
   std::vector<Vec3> positions_, normals_;
   std::vector<Vec2> uvs_;
-  std::vector<uint32_t> first_variant_;  // of each position
-  std::vector<Variant> variants_;        // of each vertex of the mesh
+  std::unordered_map<Corner, uint32_t, CornerHash> vertices_;  // of the mesh
   std::vector<uint32_t> polygon_;
   TriangleMesh mesh_;
   size_t faces_ = 0;
