@@ -15,7 +15,7 @@ struct DiffuseMaterial {
   Texture reflectance{0.5f};
 };
 struct ConductorMaterial {
-  Color eta = Color::Zero(), k = Color::Ones();  // relative to the outside; `none` is 0 and 1e6
+  Color eta = Color::Zero(), k = Color::Ones();  // relative to the outside; `none` is 0 and 1
   Texture specular_reflectance{1.0f};
 };
 struct RoughConductorMaterial {

@@ -50,16 +50,6 @@ PiecewiseConstant1d::Sample PiecewiseConstant1d::sample(float u) const {
           chosen.u};
 }
 
-int PiecewiseConstant1d::cell_of(float x) const {
-  return std::clamp(static_cast<int>(x * static_cast<float>(size())), 0, size() - 1);
-}
-
-float PiecewiseConstant1d::invert(float x) const {
-  const int cell = cell_of(x);
-  const float inside = x * static_cast<float>(size()) - static_cast<float>(cell);
-  return std::min(cells_.cdf(cell) + inside * cells_.prob(cell), kOneMinusEpsilon);
-}
-
 PiecewiseConstant2d::PiecewiseConstant2d(std::span<const float> weights, int width, int height) {
   std::vector<float> row_weights;
   columns_.reserve(height);
@@ -70,20 +60,10 @@ PiecewiseConstant2d::PiecewiseConstant2d(std::span<const float> weights, int wid
   rows_ = PiecewiseConstant1d(row_weights);
 }
 
-float PiecewiseConstant2d::pdf(const Vec2& p) const {
-  const int row = rows_.cell_of(p.y());
-  return rows_.cell_pdf(row) * columns_[row].pdf(p.x());
-}
-
 PiecewiseConstant2d::Sample PiecewiseConstant2d::sample(const Vec2& u) const {
   const PiecewiseConstant1d::Sample y = rows_.sample(u.y());
   const PiecewiseConstant1d::Sample x = columns_[y.cell].sample(u.x());
   return {{x.x, y.x}, x.pdf * y.pdf, x.cell, y.cell, {x.inside, y.inside}};
-}
-
-Vec2 PiecewiseConstant2d::invert(const Vec2& p) const {
-  const float v = rows_.invert(p.y());
-  return {columns_[rows_.cell_of(p.y())].invert(p.x()), v};
 }
 
 }  // namespace waylight

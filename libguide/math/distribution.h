@@ -56,19 +56,14 @@ class PiecewiseConstant1d {
   PiecewiseConstant1d() = default;
   explicit PiecewiseConstant1d(std::span<const float> weights) : cells_(weights) {}
 
-  float pdf(float x) const { return cell_pdf(cell_of(x)); }
-  float cell_pdf(int cell) const { return cells_.prob(cell) * static_cast<float>(size()); }
+  float cell_prob(int cell) const { return cells_.prob(cell); }
   Sample sample(float u) const;
-  float invert(float x) const;  // the u that sample() turns into x
 
   int size() const { return cells_.size(); }
   double total() const { return cells_.total(); }
   bool empty() const { return cells_.empty(); }
 
  private:
-  friend class PiecewiseConstant2d;
-  int cell_of(float x) const;
-
   Discrete cells_;
 };
 
@@ -86,12 +81,10 @@ class PiecewiseConstant2d {
   PiecewiseConstant2d() = default;
   PiecewiseConstant2d(std::span<const float> weights, int width, int height);
 
-  float pdf(const Vec2& p) const;
   float cell_prob(int column, int row) const {
-    return rows_.cells_.prob(row) * columns_[row].cells_.prob(column);
+    return rows_.cell_prob(row) * columns_[row].cell_prob(column);
   }
   Sample sample(const Vec2& u) const;
-  Vec2 invert(const Vec2& p) const;
 
   double total() const { return rows_.total(); }
   bool empty() const { return rows_.empty(); }

@@ -41,17 +41,4 @@ float azimuth_to_unit(const Vec3& w) {
 
 Vec2 sphere_to_square(const Vec3& w) { return {0.5f * (1 - w.z()), azimuth_to_unit(w)}; }
 
-Vec3 square_to_cone(const Vec2& u, float cos_max) {
-  // With d = 1 - z, r^2 = d (2 - d): no cancellation in a narrow cone.
-  const float d = u.x() * (1 - cos_max);
-  const float r = safe_sqrt(d * (2 - d)), phi = 2 * kPi * u.y();
-  return {r * std::cos(phi), r * std::sin(phi), 1 - d};
-}
-
-Vec2 cone_to_square(const Vec3& w, float cos_max) {
-  // 1 - z from r^2 = (1 - z) (1 + z) where z itself has lost its digits.
-  const float d = w.z() > 0.5f ? w.head<2>().squaredNorm() / (1 + w.z()) : 1 - w.z();
-  return {d / (1 - cos_max), azimuth_to_unit(w)};
-}
-
 }  // namespace waylight

@@ -1,6 +1,6 @@
 #pragma once
 // Warps of uniform points to distributions over disks, hemispheres and spheres.
-// Each is a trio: forward, pdf, inverse. Densities over directions are per steradian.
+// Each is a forward map and its pdf, with the inverse where it is needed. Densities over directions are per steradian.
 
 #include "libguide/math/types.h"
 
@@ -15,16 +15,10 @@ inline Vec3 square_to_cosine_hemisphere(const Vec2& u) {
   return {d.x(), d.y(), safe_sqrt(1 - d.squaredNorm())};
 }
 inline float cosine_hemisphere_pdf(const Vec3& w) { return std::max(w.z(), 0.0f) * kInvPi; }
-inline Vec2 cosine_hemisphere_to_square(const Vec3& w) { return disk_to_square({w.x(), w.y()}); }
 
 Vec3 square_to_sphere(const Vec2& u);
 inline constexpr float kSpherePdf = 0.25f * kInvPi;
 Vec2 sphere_to_square(const Vec3& w);
-
-// Uniform over the cone of directions whose z is at least cos_max < 1.
-Vec3 square_to_cone(const Vec2& u, float cos_max);
-inline float cone_pdf(float cos_max) { return 0.5f * kInvPi / (1 - cos_max); }
-Vec2 cone_to_square(const Vec3& w, float cos_max);
 
 // Lambert azimuthal equal-area map: the sphere onto the disk of radius sqrt(2), the upper
 // hemisphere onto the unit disk. A density over the plane is twice the density over solid angle.

@@ -48,14 +48,12 @@ class FilterSampler {
     float weight;  // integral of |filter| / integral of filter, with the sign of the filter
   };
   Sample sample(const Vec2& u) const;
-  float radius() const { return radius_; }
 
  private:
   struct Node {
     float x, value;
     float cdf;  // of |value| up to x
   };
-  float radius_;
   std::vector<Node> nodes_;  // no cell between two nodes changes sign
   float weight_ = 1;         // (integral |f|)^2 / (integral f)^2
 

@@ -47,15 +47,15 @@ double evaluate(const FilmDescription& film, double radius, double x) {
 
 }  // namespace
 
-FilterSampler::FilterSampler(const FilmDescription& film)
-    : radius_(film.filter_radius > 0 ? film.filter_radius : default_radius(film.filter)) {
-  if (!(radius_ <= kMaxRadius && film.filter_stddev > 0))
+FilterSampler::FilterSampler(const FilmDescription& film) {
+  const float radius = film.filter_radius > 0 ? film.filter_radius : default_radius(film.filter);
+  if (!(radius <= kMaxRadius && film.filter_stddev > 0))
     fail("film: the filter needs a radius of at most {} pixels and a deviation above 0",
          kMaxRadius);
-  const int cells = std::max(2, static_cast<int>(std::ceil(2 * radius_ * kCellsPerPixel)));
+  const int cells = std::max(2, static_cast<int>(std::ceil(2 * radius * kCellsPerPixel)));
   for (int i = 0; i <= cells; ++i) {
-    const double x = radius_ * (2.0 * i / cells - 1);
-    const float value = static_cast<float>(evaluate(film, radius_, std::abs(x)));
+    const double x = radius * (2.0 * i / cells - 1);
+    const float value = static_cast<float>(evaluate(film, radius, std::abs(x)));
     if (i > 0 && value * nodes_.back().value < 0) {
       const Node& last = nodes_.back();
       const float part = last.value / (last.value - value);

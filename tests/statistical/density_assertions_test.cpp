@@ -5,6 +5,7 @@
 #include <gtest/gtest-spi.h>
 
 #include "libguide/math/warp.h"
+#include "libguide/scene/cone.h"
 
 namespace waylight::testing {
 namespace {
@@ -55,15 +56,15 @@ TEST(DensityAssertion, RejectsDensitiesThatAreNotFinite) {
 
 // A lobe of a thousandth of a radian is resolved by the adaptive bins.
 TEST(DensityAssertion, ResolvesNarrowLobes) {
-  const float cos_max = std::cos(1e-3f);
+  constexpr float height = 5e-7f;
   const Vec3 axis = Vec3(0.3f, -0.4f, 0.7f).normalized();
   const Eigen::Quaternionf turn = Eigen::Quaternionf::FromTwoVectors(Vec3::UnitZ(), axis);
   const auto sample = [&](Sampler& s) {
-    return std::make_optional<Vec3>(turn * square_to_cone(s.next_2d(), cos_max));
+    return std::make_optional<Vec3>(turn * square_to_cone_of_height(s.next_2d(), height));
   };
   const auto pdf = [&](const Vec3& w) {
     const float distance = (w - axis).norm();
-    return distance <= std::sqrt(2 * (1 - cos_max)) ? cone_pdf(cos_max) : 0.0f;
+    return distance <= std::sqrt(2 * height) ? cone_of_height_pdf(height) : 0.0f;
   };
   DensityCheck check;
   check.tolerance = 1e-2;

@@ -11,6 +11,7 @@
 #include "libguide/cache/training_check.h"
 #include "libguide/math/frame.h"
 #include "libguide/math/warp.h"
+#include "libguide/scene/cone.h"
 #include "libguide/spatial/escape_map.h"
 
 namespace waylight {
@@ -134,7 +135,8 @@ std::vector<Photon> beam(int count, const Vec3& axis, const Vec3& normal, float 
   for (int i = 0; i < count; ++i) {
     Sampler sampler(3, 0, i);
     const Vec2 u = sampler.next_2d() - Vec2::Constant(0.5f);
-    const Vec3 wi = Frame(axis.normalized()).to_world(square_to_cone(sampler.next_2d(), 0.99f));
+    const Vec3 wi =
+        Frame(axis.normalized()).to_world(square_to_cone_of_height(sampler.next_2d(), 0.01f));
     photons.push_back(
         {Frame(normal).to_world(Vec3(u.x(), u.y(), 0)), wi, normal, Color::Constant(power), 1});
   }

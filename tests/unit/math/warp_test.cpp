@@ -38,8 +38,7 @@ TEST(Warp, DiskKeepsCornersEdgesAndCentre) {
     }
 }
 
-TEST(Warp, CosineHemisphereRoundTripAndDensity) {
-  expect_round_trip(square_to_cosine_hemisphere, cosine_hemisphere_to_square, 1e-6f);
+TEST(Warp, CosineHemisphereHasItsDensity) {
   expect_valid_density(Sphere{}, "cosine", sampled(square_to_cosine_hemisphere),
                        cosine_hemisphere_pdf);
 }
@@ -48,35 +47,6 @@ TEST(Warp, SphereRoundTripAndDensity) {
   expect_round_trip(square_to_sphere, sphere_to_square, 2e-4f);
   expect_valid_density(Sphere{}, "sphere", sampled(square_to_sphere),
                        [](const Vec3&) { return kSpherePdf; });
-}
-
-TEST(Warp, ConeRoundTripAndDensity) {
-  for (float cos_max : {-0.5f, 0.0f, 0.5f, 0.95f}) {
-    expect_round_trip([=](const Vec2& u) { return square_to_cone(u, cos_max); },
-                      [=](const Vec3& w) { return cone_to_square(w, cos_max); }, 1e-4f);
-    expect_valid_density(Sphere{}, "cone",
-                         sampled([=](const Vec2& u) { return square_to_cone(u, cos_max); }),
-                         [=](const Vec3& w) { return w.z() >= cos_max ? cone_pdf(cos_max) : 0; });
-  }
-}
-
-// A cone as small as the sun's, and one a fifth of it. E[sin^2] = 1 - cos_max to first order.
-TEST(Warp, NarrowConesKeepTheirAngle) {
-  for (float angle : {4.65e-3f, 1e-3f}) {
-    const float cos_max = std::cos(angle);
-    double mean = 0;
-    for (int i = 0; i < 4096; ++i) {
-      const Vec3 w = square_to_cone(Sampler(5, 0, i).next_2d(), cos_max);
-      mean += w.head<2>().cast<double>().squaredNorm() / 4096;
-    }
-    EXPECT_NEAR(mean / (1 - double(cos_max)), 1, 1e-4) << angle;
-  }
-}
-
-TEST(Warp, NarrowConesRoundTrip) {
-  const float cos_max = std::cos(4.65e-3f);
-  expect_round_trip([=](const Vec2& u) { return square_to_cone(u, cos_max); },
-                    [=](const Vec3& w) { return cone_to_square(w, cos_max); }, 1e-5f);
 }
 
 TEST(Warp, LambertMapRoundTripsOverTheSphere) {
