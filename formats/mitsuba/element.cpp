@@ -2,30 +2,14 @@
 
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <filesystem>
+
+#include "libguide/base/nearest_name.h"
 
 namespace waylight::mitsuba {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Insertions, deletions, replacements and swaps of neighbours [Damerau 1964, restricted].
-size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<size_t> before, last(b.size() + 1), row(b.size() + 1);
-  for (size_t j = 0; j <= b.size(); ++j) last[j] = j;
-  for (size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] != b[j - 1])});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    before = last;
-    last = row;
-  }
-  return last[b.size()];
-}
 
 // Enough for all types and presets; the ids of a scene may be thousands.
 std::string list_of(const std::vector<std::string>& names) {
@@ -73,19 +57,6 @@ std::string Document::find_file(const Element& by, const std::string& relative) 
     }
   fail_at(by, "there is no file \"{}\" beside it, beside \"{}\" or in a <path> folder", relative,
           path);
-}
-
-const std::string* nearest_name(const std::string& unknown, const std::vector<std::string>& known) {
-  constexpr size_t kLongest = 128;  // names beyond are no slips, and the distance is quadratic
-  if (unknown.size() > kLongest) return nullptr;
-  const std::string* nearest = nullptr;
-  size_t least = std::max<size_t>(2, unknown.size() / 3) + 1;
-  for (const std::string& candidate : known) {
-    if (candidate.size() > kLongest) continue;
-    const size_t distance = edit_distance(unknown, candidate);
-    if (distance < least && distance < candidate.size()) least = distance, nearest = &candidate;
-  }
-  return nearest;
 }
 
 std::string did_you_mean(const std::string& unknown, const std::vector<std::string>& known) {

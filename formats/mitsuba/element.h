@@ -53,10 +53,7 @@ template <typename... Args>
       fmt::format("{}: {}", element.where(), fmt::format(format, std::forward<Args>(args)...)));
 }
 
-// The known name with the smallest edit distance; nullptr when nothing is near.
-const std::string* nearest_name(const std::string& unknown, const std::vector<std::string>& known);
-
-// That name as a clause, "; did you mean \"diffuse\"?", else the known ones:
+// The nearest name as a clause, "; did you mean \"diffuse\"?", else the known ones:
 // "; known are conductor, diffuse". Empty when nothing is known.
 std::string did_you_mean(const std::string& unknown, const std::vector<std::string>& known);
 

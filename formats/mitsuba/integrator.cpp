@@ -4,6 +4,7 @@
 
 #include "formats/mitsuba/import_context.h"
 #include "formats/mitsuba/types.h"
+#include "libguide/base/nearest_name.h"
 
 namespace waylight::mitsuba {
 namespace {

@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <numeric>
-#include <utility>
 
+#include "libguide/base/nearest_name.h"
 #include "tools/common/cli.h"
 
 namespace waylight {
@@ -40,31 +39,14 @@ void append_option(const CLI::Option& option, std::string& text) {
   for (const std::string& value : option.results()) text += " " + canonical_value(option, value);
 }
 
-// Levenshtein's: insertions, deletions and replacements from one word to the other.
-size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = std::exchange(row[0], i);
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-std::string nearest_option(const CLI::App& app, const std::string& word) {
-  std::string nearest;
-  size_t least = word.size() / 3 + 1;
+// Without dashes, of which any number may have been typed.
+std::string did_you_mean(const CLI::App& app, std::string word) {
+  word.erase(0, word.find_first_not_of('-'));
+  std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames())
-      if (const size_t distance = edit_distance(word, "--" + name); distance < least) {
-        least = distance;
-        nearest = "--" + name;
-      }
-  return nearest;
+    names.insert(names.end(), option->get_lnames().begin(), option->get_lnames().end());
+  const std::string* nearest = nearest_name(word, names);
+  return nearest ? fmt::format("; did you mean --{}?", *nearest) : "";
 }
 
 }  // namespace
@@ -104,9 +86,8 @@ std::string unknown_words(const CLI::App& app) {
   const std::string word = app.remaining().front();
   if (word.size() < 2 || word[0] != '-')
     return fmt::format("\"{}\": there is no place for another file", word);
-  const std::string name = word.substr(0, word.find('=')), nearest = nearest_option(app, name);
-  if (nearest.empty()) return fmt::format("there is no option {}", name);
-  return fmt::format("there is no option {}; did you mean {}?", name, nearest);
+  const std::string name = word.substr(0, word.find('='));
+  return fmt::format("there is no option {}{}", name, did_you_mean(app, name));
 }
 
 CLI::Option* as_input(CLI::Option* option) { return option->type_name(kInput); }
