@@ -14,7 +14,7 @@ EquiangularFlight::EquiangularFlight(const FlightSpace& space, const Vec3& light
       share_(range_.empty() ? 0 : kEquiangular) {}
 
 Color EquiangularFlight::transmittance(float t) const {
-  return (-sigma_ * std::min(t, kFar)).exp();
+  return exponential_transmittance(sigma_, t);
 }
 
 float EquiangularFlight::standard_distance(const Vec2& u) const {

@@ -85,9 +85,8 @@ Color GuidedFlight::transmittance(float t, Sampler& sampler) const {
     RandomStream random(sampler);
     return space_.medium.transmittance(space_.ray, t, random);
   }
-  Color result = Color::Constant(std::exp(-bins_.sigma[0] * std::min(t, kFar)));
-  for (int c = 1; c < process_count_; ++c)
-    result[c] = std::exp(-bins_.sigma[c] * std::min(t, kFar));
+  Color result = Color::Constant(exponential_transmittance(bins_.sigma[0], t));
+  for (int c = 1; c < process_count_; ++c) result[c] = exponential_transmittance(bins_.sigma[c], t);
   return result;
 }
 

@@ -15,7 +15,7 @@ struct Standard {
 };
 
 Color homogeneous_transmittance(const FlightSpace& space, float t) {
-  return (-space.medium.at(space.ray.origin).sigma_t * std::min(t, kFar)).exp();
+  return exponential_transmittance(space.medium.at(space.ray.origin).sigma_t, t);
 }
 
 // For each channel 1 - T(t_max), exact for thin media too.

@@ -8,10 +8,6 @@ namespace {
 
 using Grid = std::shared_ptr<const VolumeGrid>;
 
-Color exponential(const Color& sigma_t, float distance) {
-  return (-sigma_t * std::min(distance, kFar)).exp();
-}
-
 float exponential_distance(float u) { return -std::log1p(-u); }
 
 // Whether a tentative collision is real, and the weights of either outcome. channels: of the
@@ -77,7 +73,7 @@ Flight MediumTracker::fly_exponential(const Ray& ray, float t_max, const Color& 
   const float sigma = sigma_t_[choose_channel(channels, sampler.next())];
   const float t = sigma > 0 ? exponential_distance(u) / sigma : kInfinity;
   const bool scattered = t < t_max;
-  const Color transmittance = exponential(sigma_t_, scattered ? t : t_max);
+  const Color transmittance = exponential_transmittance(sigma_t_, scattered ? t : t_max);
   if (!scattered) return {t_max, false, transmittance / (channels * transmittance).sum(), {}};
   const float pdf = (channels * sigma_t_ * transmittance).sum();
   return {t, true, sigma_t_ * transmittance / pdf, at(ray(t))};
@@ -100,7 +96,7 @@ Flight MediumTracker::track(const Ray& ray, float t_max, const Color& throughput
 }
 
 Color MediumTracker::transmittance(const Ray& ray, float t_max, RandomStream& random) const {
-  if (!density_grid_) return exponential(sigma_t_, t_max);
+  if (!density_grid_) return exponential_transmittance(sigma_t_, t_max);
   constexpr float kFaint = 0.05f;  // below, roulette decides whether to look further
   Color result = Color::Ones();
   BlockWalk blocks = walk(ray, t_max);

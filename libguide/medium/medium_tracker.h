@@ -12,6 +12,14 @@ namespace waylight {
 // Distances in optical depths end here: 0 times infinity is kept out.
 inline constexpr float kFar = 1e30f;
 
+// Of a homogeneous medium.
+inline float exponential_transmittance(float sigma_t, float distance) {
+  return std::exp(-sigma_t * std::min(distance, kFar));
+}
+inline Color exponential_transmittance(const Color& sigma_t, float distance) {
+  return (-sigma_t * std::min(distance, kFar)).exp();
+}
+
 struct MediumCoefficients {
   Color sigma_t, albedo;
 };
