@@ -14,13 +14,6 @@ VolumeTexture import_constant(ImportContext& /*context*/, Properties& properties
   return value;
 }
 
-Mat4 box_between(const Vec3& low, const Vec3& high) {
-  Mat4 box = Mat4::Identity();
-  box.diagonal().head<3>() = high - low;
-  box.topRightCorner<3, 1>() = low;
-  return box;
-}
-
 // [0,1]^3 of the grid to the volume's own space: the box of the file, unless the old dialect's min
 // and max say otherwise, or the new dialect leaves the file's box out, as it does by default.
 Mat4 box_property(ImportContext& context, Properties& properties, const Mat4& of_file, bool vdb) {

@@ -15,6 +15,14 @@ struct HenyeyGreenstein {
 };
 using PhaseFunction = std::variant<IsotropicPhase, HenyeyGreenstein>;
 
+// [0,1]^3 to the box between two corners.
+inline Mat4 box_between(const Vec3& low, const Vec3& high) {
+  Mat4 box = Mat4::Identity();
+  box.diagonal().head<3>() = high - low;
+  box.topRightCorner<3, 1>() = low;
+  return box;
+}
+
 struct VolumeGrid {
   VoxelBricks voxels;                     // of 1 or 3 channels
   bool nearest = false;                   // the voxel's value, instead of trilinear interpolation

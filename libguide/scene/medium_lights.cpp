@@ -32,12 +32,8 @@ bool names(const Shape& shape, int medium) {
   return shape.interior_medium == medium || shape.exterior_medium == medium;
 }
 
-Mat4 box_between(const Bounds& bounds) {
-  Mat4 box = Mat4::Identity();
-  if (bounds.empty()) return Mat4::Zero();
-  box.diagonal().head<3>() = bounds.max - bounds.min;
-  box.topRightCorner<3, 1>() = bounds.min;
-  return box;
+Mat4 box_of(const Bounds& bounds) {
+  return bounds.empty() ? Mat4(Mat4::Zero()) : box_between(bounds.min, bounds.max);
 }
 
 Color emitted_at(const MediumTracker& medium, const Vec3& p) {
@@ -69,7 +65,7 @@ void MediumLights::add(int medium) {
   const Medium& description = scene_.description().media[medium];
   const Grid* grid = density_grid(description);
   Region region{medium,
-                grid ? (*grid)->grid_to_world : box_between(medium_bounds(scene_, medium)),
+                grid ? (*grid)->grid_to_world : box_of(medium_bounds(scene_, medium)),
                 0,
                 Eigen::Vector3i::Constant(varies(description) ? kMaxSide : 1),
                 {}};
