@@ -242,20 +242,21 @@ Bounds TrainingCell::extent() const {
 }
 
 // Where most photons of a cell lie in front of a wall and more than two stray ones behind it, their
-// box goes through the wall, but their standard deviations hardly do.
+// box goes through the wall, but their standard deviations hardly do. These are of the photons of
+// earlier streams too: where those lie elsewhere, nothing but the box tells where the new ones are.
 CellReach TrainingCell::reach() const {
   const bool by_own = own_.count() >= kOwnExtentPhotons;
   if (made_with_ && !by_own) return *made_with_;
   const Bounds box = extent();
   if (box.empty()) return {};
   const Vec3 room = Vec3::Constant(kRoom * box.radius());
-  CellReach reach{box.min - room, box.max + room};
-  if (!by_own) return reach;
+  const CellReach whole{box.min - room, box.max + room};
+  if (!by_own) return whole;
   const Vec3 spread = kDeviations * (training_.position_m2 / training_.count).cwiseSqrt() +
                       Vec3::Constant(kThickness * box.radius());
-  reach.min = reach.min.cwiseMax(training_.position_mean - spread);
-  reach.max = reach.max.cwiseMin(training_.position_mean + spread);
-  return reach;
+  const CellReach reach{whole.min.cwiseMax(training_.position_mean - spread),
+                        whole.max.cwiseMin(training_.position_mean + spread)};
+  return (reach.min.array() <= reach.max.array()).all() ? reach : whole;
 }
 
 Bounds TrainingCell::lit() const {
