@@ -2,6 +2,7 @@
 
 #include "libguide/cache/medium_volume.h"
 #include "libguide/cache/position_moments.h"
+#include "libguide/math/saturate.h"
 
 namespace waylight {
 namespace {
@@ -80,7 +81,7 @@ void MediumTrainingCell::inherit_fluence(MediumTrainingCell& child, double now,
                                          float min_extent) const {
   const double volume =
       fills_box(training_) ? box_volume(child.box_) : 0.5 * medium_volume(training_, box_);
-  child.training_.inherited_volume = static_cast<float>(volume);
+  child.training_.inherited_volume = saturated(volume);
   const double photons_of_all = (now - training_.born) / training_.count;  // per photon of the cell
   const double exposure = 2 * kInheritedPhotons * photons_of_all;
   child.training_.born = now - exposure;
@@ -101,7 +102,7 @@ void MediumTrainingCell::unite(const MediumTrainingCell& sibling,
   training_.count += other.count;
   if (training_.count > kMaxMomentCount) forget_half(training_);
   box_.extend(sibling.box_);
-  training_.inherited_volume = static_cast<float>(volumes);
+  training_.inherited_volume = saturated(volumes);
   training_.born = std::clamp(now - exposures / volumes, 0.0, now);
   const double scale = volume(min_extent) / volumes;
   const auto flux = [&](const TrainingLight& a, const TrainingLight& b) {
