@@ -92,8 +92,9 @@ class OnlineMixture {
   // photons soon outweigh the old. Of the photons that wait each child takes every other one.
   void inherit_as_child(const OnlineMixture& parent, bool upper, const Options& options);
   void forget();
-  // Adds the evidence of a mixture that learned from photons of the same light.
-  void add_evidence(const OnlineMixture& other);
+  // Adds the evidence of a mixture that learned from photons of the same light. One of the two may
+  // have seen none of this stream.
+  void add_evidence(OnlineMixture other);
   // The evidence becomes that of `photons`, with the sum of their weights and that of the squares,
   // and of `old` of the photons before.
   void state_evidence(double photons, double sum, double sum2, double old);
@@ -113,7 +114,8 @@ class OnlineMixture {
   float weight_cap(std::span<const Point> batch) const;
   void begin(std::span<const Point> batch, float effective_samples, const Options& options);
   void step(std::span<const Point> batch, float effective_samples, const Options& options);
-  void carry_evidence_over(double sum, size_t photons);
+  double mean_weight() const { return training_.weight_sum / record_.photon_count; }
+  void restate_evidence(double mean_weight);
   void weigh_evidence() {
     const double sum = training_.weight_sum, sum2 = training_.weight_sum2;
     record_.effective_samples = sum2 > 0 ? static_cast<float>(sum * sum / sum2) : 0.0f;
@@ -155,7 +157,7 @@ size_t OnlineMixture<Lobes>::learn(std::span<Point> batch, const Options& option
     step(batch, effective_samples, options);
   else
     begin(batch, effective_samples, options);
-  if (carried_over_) carry_evidence_over(sum, batch.size());
+  if (carried_over_) restate_evidence(sum / static_cast<double>(batch.size()));
   record_.photon_count += static_cast<float>(batch.size());
   training_.weight_sum += sum;
   training_.weight_sum2 += sum2;
@@ -170,19 +172,17 @@ template <typename Lobes>
 float OnlineMixture<Lobes>::weight_cap(std::span<const Point> batch) const {
   if (record_.photon_count == 0 || carried_over_)
     return scan_weights(batch, kMaxTrainingWeight).cap;
-  const double mean = training_.weight_sum / record_.photon_count;
-  return static_cast<float>(kMaxTrainingWeight * mean);
+  return static_cast<float>(kMaxTrainingWeight * mean_weight());
 }
 
 // Guided photons are many and weigh little each, others are few and heavy: in absolute weights a
 // few of these would outweigh all evidence to come. EM weighs photons within their batch alone, so
 // the evidence of an earlier stream goes on in weights whose mean is that of this one.
 template <typename Lobes>
-void OnlineMixture<Lobes>::carry_evidence_over(double sum, size_t photons) {
+void OnlineMixture<Lobes>::restate_evidence(double mean_weight) {
   carried_over_ = false;
   if (!(training_.weight_sum > 0)) return;
-  const double scale =
-      sum / static_cast<double>(photons) * record_.photon_count / training_.weight_sum;
+  const double scale = mean_weight * record_.photon_count / training_.weight_sum;
   training_.weight_sum *= scale;
   training_.weight_sum2 *= scale * scale;
 }
@@ -236,7 +236,10 @@ void OnlineMixture<Lobes>::inherit_as_child(const OnlineMixture& parent, bool up
 }
 
 template <typename Lobes>
-void OnlineMixture<Lobes>::add_evidence(const OnlineMixture& other) {
+void OnlineMixture<Lobes>::add_evidence(OnlineMixture other) {
+  if (!(record_.photon_count > 0)) carried_over_ = other.carried_over_;
+  if (other.record_.photon_count > 0 && carried_over_ != other.carried_over_)
+    carried_over_ ? restate_evidence(other.mean_weight()) : other.restate_evidence(mean_weight());
   record_.photon_count += other.record_.photon_count;
   training_.weight_sum += other.training_.weight_sum;
   training_.weight_sum2 += other.training_.weight_sum2;

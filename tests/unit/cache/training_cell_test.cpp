@@ -49,5 +49,18 @@ TEST(TrainingCell, OfOneStreamReachesNoFurtherThanThreeDeviations) {
   EXPECT_FALSE(cell.reach().holds(Vec3(50, 0.5f, 0)));
 }
 
+// One has its evidence in weights of the stream before, the other in those of its own photons.
+TEST(TrainingCell, EvidenceAddsUpWhicheverOfTwoHasSeenPhotonsOfTheLaterStream) {
+  TrainingCell before;
+  absorb(before, photons_at(0, 10'048));
+  TrainingCell dark = continued(before), lit = dark;
+  absorb(lit, photons_at(0, 10'048, 1e-5f));
+  for (const auto& [first, second] : {std::pair(dark, lit), std::pair(lit, dark)}) {
+    TrainingCell both = first;
+    both.unite(second, {}, 1e5, 1e-6);
+    EXPECT_NEAR(both.cell().effective_samples, 30'144, 1);
+  }
+}
+
 }  // namespace
 }  // namespace waylight
