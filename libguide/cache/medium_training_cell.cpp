@@ -53,6 +53,8 @@ void MediumTrainingCell::add_positions(std::span<const MediumPhoton> block,
 }
 
 size_t MediumTrainingCell::flush(const MediumCellOptions& options) {
+  indirect_.keep_components(options.indirect.components);
+  direct_.keep_components(options.direct.components);
   return indirect_.flush(options.indirect) + direct_.flush(options.direct);
 }
 

@@ -10,6 +10,8 @@
 
 #include "libguide/cache/guide_cache_view.h"
 #include "libguide/directional/em_batch.h"
+#include "libguide/directional/gaussian_reduction.h"
+#include "libguide/directional/vmf_reduction.h"
 
 namespace waylight {
 
@@ -31,6 +33,15 @@ inline constexpr float kInheritedStep = 5;
 
 // What the parent knew of the irradiance or fluence counts like so many photons.
 inline constexpr double kInheritedPhotons = 8;
+
+// At most so many components, the most alike of them merged.
+inline std::vector<GaussianComponent> merged_to(std::span<const GaussianComponent> components,
+                                                int most) {
+  return reduce_mixture(components, MergeLimit(0), most).components;
+}
+inline std::vector<VmfComponent> merged_to(std::span<const VmfComponent> components, int most) {
+  return reduce_vmf_mixture(components, MergeLimit(0), most).components;
+}
 
 // Lobes: the kind of mixture and the records of it.
 //   Record: photon_count, effective_samples, component_count. Training: step, samples, weight_sum,
@@ -61,6 +72,12 @@ class OnlineMixture {
   }
   std::span<const Statistics> statistics() const {
     return {statistics_.data(), record_.component_count};
+  }
+
+  // An earlier stream may have left more components than this one is to have.
+  void keep_components(int most) {
+    if (record_.component_count > static_cast<uint32_t>(most))
+      replace_mixture(merged_to(components(), most));
   }
 
  protected:
@@ -153,6 +170,7 @@ size_t OnlineMixture<Lobes>::learn(std::span<Point> batch, const Options& option
   pending_count_ = 0;
   if (!(sum2 > 0)) return capped;  // too dark for their weights to be told from zero
   const float effective_samples = static_cast<float>(sum * sum / sum2);
+  keep_components(options.components);
   if (training_.step > 0)
     step(batch, effective_samples, options);
   else

@@ -124,6 +124,7 @@ bool TrainingCell::on_other_side() const {
 }
 
 size_t TrainingCell::flush(const CellTrainingOptions& options) {
+  keep_components(options.components);
   return enough_wait() ? update(options) : 0;
 }
 
