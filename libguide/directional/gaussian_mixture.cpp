@@ -79,8 +79,10 @@ void GaussianMixture::prepare() {
   const Lanes trace = cov_xx_ + cov_yy_;
   const Lanes rough_det = difference_of_products(cov_xx_, cov_yy_, cov_xy_, cov_xy_);
   const Lanes floor = rough_det < kCovarianceFloor * trace ? splat(kCovarianceFloor) : Lanes{};
-  cov_xx_ += floor, cov_yy_ += floor;
-  // The floor again where rounding has made a rotated covariance indefinite.
+  // The floor again where rounding has made a rotated covariance indefinite: the variance across a
+  // long lobe may come out negative.
+  cov_xx_ = lanes_max(cov_xx_ + floor, splat(kCovarianceFloor));
+  cov_yy_ = lanes_max(cov_yy_ + floor, splat(kCovarianceFloor));
   const Lanes det = lanes_max(difference_of_products(cov_xx_, cov_yy_, cov_xy_, cov_xy_),
                               kCovarianceFloor * kCovarianceFloor * (1 + Lanes{}));
   const Lanes inverse = 1 / (cov_xx_ * det), inverse_xx = inverse * det;

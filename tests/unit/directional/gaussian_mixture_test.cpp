@@ -90,6 +90,21 @@ TEST(GaussianMixture, NarrowLobesKeepTheFloorAndSampleWhatTheyEvaluate) {
   EXPECT_NEAR(mean_ratio / inside, 1, 0.15);
 }
 
+// Turned so that they lie along the y axis, long lobes lose the variance along x to rounding.
+TEST(GaussianMixture, LongLobesTurnedUprightKeepAFiniteDensity) {
+  for (int i = 0; i < 20'000; ++i) {
+    Sampler sampler(6, 0, i);
+    const float xx = 100 + sampler.next(), yy = 100 + sampler.next(), xy = std::sqrt(xx * yy);
+    const float upright = kPi / 2 - 0.5f * std::atan2(2 * xy, xx - yy);
+    const GaussianMixture mixture(std::array{GaussianComponent{1, 0, 0, xx, xy * (1 - 1e-7f), yy}},
+                                  Vec2(std::cos(upright), std::sin(upright)));
+    if (mixture.count() == 0) continue;
+    EXPECT_TRUE(std::isfinite(mixture.pdf(Vec2(0, 0)))) << xx << " " << yy;
+    const auto y = mixture.sample(0.5f, sampler.next_2d());
+    EXPECT_TRUE(!y || mixture.pdf(*y) > 0) << xx << " " << yy;
+  }
+}
+
 TEST(GaussianMixture, RotationOfThePlaneRotatesTheDensity) {
   const auto components = random_components(5, 3);
   const GaussianMixture plain(components), turned(components, Vec2(0.6f, -0.8f));
