@@ -9,7 +9,6 @@ namespace waylight {
 namespace {
 
 constexpr float kSqrtHalfLog2E = 0.849321800288f;
-constexpr float kMaxMagnitude = 1e6f;  // of means and variances; the domain has radius sqrt(2)
 constexpr float kMaxWeight = 1e30f;
 
 constexpr GaussianComponent kUnused = {0, 0, 0, 1, 0, 1};
@@ -58,9 +57,10 @@ void GaussianMixture::fill_valid(std::span<const GaussianComponent> components) 
 }
 
 IntLanes GaussianMixture::valid() const {
-  return within(weight_, 0, kMaxWeight) & within(mean_x_, -kMaxMagnitude, kMaxMagnitude) &
-         within(mean_y_, -kMaxMagnitude, kMaxMagnitude) & within(cov_xx_, 0, kMaxMagnitude) &
-         within(cov_yy_, 0, kMaxMagnitude) &
+  return within(weight_, 0, kMaxWeight) &
+         within(mean_x_, -kMaxGaussianMagnitude, kMaxGaussianMagnitude) &
+         within(mean_y_, -kMaxGaussianMagnitude, kMaxGaussianMagnitude) &
+         within(cov_xx_, 0, kMaxGaussianMagnitude) & within(cov_yy_, 0, kMaxGaussianMagnitude) &
          (difference_of_products(cov_xx_, cov_yy_, cov_xy_, cov_xy_) > 0);
 }
 

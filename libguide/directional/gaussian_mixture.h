@@ -16,6 +16,10 @@ namespace waylight {
 // are below what floats resolve at the rim of the disk.
 inline constexpr float kCovarianceFloor = 1e-7f;
 
+// Of means and variances of what counts as a Gaussian. The domain has radius sqrt(2), but a lobe
+// that is carried over or fitted to a plateau may be wider.
+inline constexpr float kMaxGaussianMagnitude = 1e6f;
+
 // At most eight components in structure-of-arrays form, with what evaluation needs precomputed.
 // The density is a sub-density of the domain |y|^2 <= 2: mass outside is lost, never renormalised,
 // so a sample that falls outside is a sample of value zero.

@@ -5,43 +5,32 @@
 #include <cmath>
 
 #include "libguide/directional/gaussian_mixture.h"
+#include "libguide/directional/vmf_mixture.h"
 
 namespace waylight {
 namespace {
 
-// In double: the determinant of a narrow but valid covariance can cancel to zero in float.
-bool valid_density(const GaussianComponent& c) {
-  const double det = double{c.cov_xx} * c.cov_yy - double{c.cov_xy} * c.cov_xy;
-  return c.weight > 0 && c.cov_xx > 0 && c.cov_yy > 0 && std::isfinite(c.weight) &&
-         std::isfinite(c.mean_x) && std::isfinite(c.mean_y) && std::isfinite(det) && det > 0;
-}
-
-bool valid_density(const VmfComponent& c) {
-  return c.weight > 0 && std::isfinite(c.weight) && c.kappa >= 0 && std::isfinite(c.kappa) &&
-         std::abs(c.mean.squaredNorm() - 1) < 1e-3f;
-}
-
-template <typename Component>
+// Valid is what the mixture for sampling does not leave out.
+template <typename Mixture, typename Component>
 std::string check_components(std::span<const Component> components, const char* lobe) {
   if (components.empty()) return {};
-  if (components.size() > GaussianMixture::kMaxComponents)
+  if (components.size() > Mixture::kMaxComponents)
     return fmt::format("{} components", components.size());
+  if (Mixture(components).count() != static_cast<int>(components.size()))
+    return fmt::format("a component is not a valid {}", lobe);
   double sum = 0;
-  for (const Component& c : components) {
-    if (!valid_density(c)) return fmt::format("a component is not a valid {}", lobe);
-    sum += c.weight;
-  }
+  for (const Component& c : components) sum += c.weight;
   return std::abs(sum - 1) < 1e-3 ? std::string() : fmt::format("weights sum to {}", sum);
 }
 
 }  // namespace
 
 std::string check_mixture(std::span<const GaussianComponent> components) {
-  return check_components(components, "Gaussian");
+  return check_components<GaussianMixture>(components, "Gaussian");
 }
 
 std::string check_mixture(std::span<const VmfComponent> components) {
-  return check_components(components, "von Mises-Fisher lobe");
+  return check_components<VmfMixture>(components, "von Mises-Fisher lobe");
 }
 
 }  // namespace waylight

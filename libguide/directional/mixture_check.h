@@ -9,10 +9,10 @@
 namespace waylight {
 
 // What is wrong with a stored mixture, or an empty string: what passes has at most
-// GaussianMixture::kMaxComponents, each a valid density, and weights that sum to 1. One without
-// components is valid.
+// GaussianMixture::kMaxComponents, none of which that leaves out, and weights that sum to 1. One
+// without components is valid.
 std::string check_mixture(std::span<const GaussianComponent> components);
-// The same of lobes over the sphere: unit means, concentrations that are not negative.
+// The same of lobes over the sphere, for VmfMixture.
 std::string check_mixture(std::span<const VmfComponent> components);
 
 }  // namespace waylight

@@ -1,6 +1,7 @@
 #include "libguide/directional/vmf_mixture.h"
 
 #include <array>
+#include <limits>
 
 namespace waylight {
 namespace {
@@ -47,7 +48,8 @@ void VmfMixture::fill(std::span<const VmfComponent> components) {
 IntLanes VmfMixture::valid() const {
   const Lanes length2 = mean_x_ * mean_x_ + mean_y_ * mean_y_ + mean_z_ * mean_z_;
   return within(weight_, kMinWeight, kMaxWeight) &
-         within(length2, 1 - kUnitTolerance, 1 + kUnitTolerance) & (kappa_ >= 0);
+         within(length2, 1 - kUnitTolerance, 1 + kUnitTolerance) & (kappa_ >= 0) &
+         (kappa_ <= std::numeric_limits<float>::max());
 }
 
 void VmfMixture::prepare() {

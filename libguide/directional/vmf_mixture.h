@@ -14,9 +14,9 @@ class VmfMixture {
   static constexpr int kMaxComponents = kLanes;
 
   VmfMixture() = default;
-  // Lobes without a positive weight, a unit mean or a concentration that is not negative are left
-  // out, and so are those after the eighth; weights and means are normalised, concentrations end at
-  // kMaxKappa. With none left count() is 0, the density zero (samples are uniform then).
+  // Lobes without a positive weight, a unit mean or a finite concentration that is not negative are
+  // left out, and so are those after the eighth; weights and means are normalised, concentrations
+  // end at kMaxKappa. With none left count() is 0, the density zero (samples are uniform then).
   explicit VmfMixture(std::span<const VmfComponent> components);
 
   float eval(const Vec3& w) const { return pdf(w); }

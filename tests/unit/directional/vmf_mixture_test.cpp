@@ -147,10 +147,10 @@ TEST(VmfMixture, SamplesFollowTheDensity) {
 TEST(VmfMixture, LeavesOutWhatIsNotALobe) {
   const float nan = std::nanf("");
   const VmfComponent good = {2, Vec3::UnitX(), 5};
-  std::vector<VmfComponent> bad(9, good);
+  std::vector<VmfComponent> bad(10, good);
   bad[0].weight = 0, bad[1].weight = -1, bad[2].weight = kInfinity, bad[3].weight = nan;
   bad[4].mean.x() = nan, bad[5].mean *= 0.9f, bad[6].mean.setZero();
-  bad[7].kappa = -1, bad[8].kappa = nan;
+  bad[7].kappa = -1, bad[8].kappa = nan, bad[9].kappa = kInfinity;
   const VmfMixture none(bad);
   EXPECT_EQ(none.count(), 0);
   bad.push_back(good);
@@ -176,7 +176,8 @@ TEST(VmfMixture, WithoutLobesHasNoDensityAndStillGivesDirections) {
 }
 
 TEST(VmfMixture, ConcentrationsEndAtTheBound) {
-  const VmfMixture mixture(std::array{VmfComponent{1, Vec3::UnitX(), kInfinity}});
+  const float largest = std::numeric_limits<float>::max();
+  const VmfMixture mixture(std::array{VmfComponent{1, Vec3::UnitX(), largest}});
   ASSERT_EQ(mixture.count(), 1);
   EXPECT_EQ(mixture.component(0).kappa, kMaxKappa);
   EXPECT_TRUE(std::isfinite(mixture.pdf(Vec3::UnitX())));
