@@ -3,20 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <initializer_list>
 
 #include "libguide/directional/mixture_check.h"
+#include "libguide/math/finite.h"
 #include "libguide/spatial/escape_map.h"
 #include "libguide/spatial/tree_check.h"
 
 namespace waylight {
 namespace {
-
-bool finite_and_not_negative(std::initializer_list<float> values) {
-  for (float v : values)
-    if (!std::isfinite(v) || v < 0) return false;
-  return true;
-}
 
 std::string check_cell(const CacheCell& cell, std::span<const GaussianComponent> components) {
   if (!(std::abs(cell.normal.squaredNorm() - 1) < 1e-3f)) return "the normal is not of unit length";

@@ -3,20 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "libguide/directional/focused_mixture.h"
 #include "libguide/directional/mixture_check.h"
+#include "libguide/math/finite.h"
 #include "libguide/spatial/tree_check.h"
 
 namespace waylight {
 namespace {
 
-bool finite_and_not_negative(float v) { return std::isfinite(v) && v >= 0; }
-
 std::string check_light(const MediumLight& light, std::span<const VmfComponent> components) {
-  for (const float v : {light.fluence, light.photon_count, light.effective_samples})
-    if (!finite_and_not_negative(v)) return "a statistic is negative or not finite";
+  if (!finite_and_not_negative({light.fluence, light.photon_count, light.effective_samples}))
+    return "a statistic is negative or not finite";
   if (uint64_t{light.first_component} + light.component_count > components.size())
     return fmt::format("components end past the last of {}", components.size());
   return check_mixture(components.subspan(light.first_component, light.component_count));

@@ -2,23 +2,33 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <initializer_list>
+#include "libguide/directional/gaussian_mixture.h"
+#include "libguide/math/finite.h"
 
 namespace waylight {
 namespace {
 
+constexpr float kRounding = 1e-3f;  // room for it
+
+bool within(float v, float least, float most) { return v >= least && v <= most; }  // no NaN is
+
+bool valid_share(float s0) { return within(s0, 0, 1 + kRounding); }
+
 bool valid(const ComponentStatistics& s) {
-  return std::isfinite(s.s0) && s.s0 >= 0 && std::isfinite(s.s1_x) && std::isfinite(s.s1_y) &&
-         std::isfinite(s.s2_xx) && std::isfinite(s.s2_xy) && std::isfinite(s.s2_yy);
+  const float least = -kRounding * s.s0, most = kMaxGaussianMagnitude * s.s0;
+  return valid_share(s.s0) && within(s.s1_x, -most, most) && within(s.s1_y, -most, most) &&
+         within(s.s2_xx, least, most) && within(s.s2_yy, least, most) &&
+         within(s.s2_xy, -most, most);
 }
 
-bool valid(const VmfStatistics& s) { return std::isfinite(s.s0) && s.s0 >= 0 && s.s1.allFinite(); }
+bool valid(const VmfStatistics& s) {
+  return valid_share(s.s0) && s.s1.allFinite() && s.s1.norm() <= (1 + kRounding) * s.s0;
+}
 
 template <typename Statistics>
 std::string check_statistics(const std::vector<Statistics>& statistics) {
   for (size_t i = 0; i < statistics.size(); ++i)
-    if (!valid(statistics[i])) return fmt::format("statistics {} are not finite", i);
+    if (!valid(statistics[i])) return fmt::format("statistics {} are those of no lobe", i);
   return {};
 }
 
@@ -32,12 +42,6 @@ bool valid_positions(const Training& t) {
 bool valid_moments(const CellTraining& t) {
   return valid_positions(t) && t.normal_mean.allFinite() && t.normal_m2.allFinite() &&
          t.normal_m2.minCoeff() >= 0;
-}
-
-bool finite_and_not_negative(std::initializer_list<double> values) {
-  for (const double v : values)
-    if (!std::isfinite(v) || v < 0) return false;
-  return true;
 }
 
 // What a cell of a surface and each kind of light in a medium have in common.
