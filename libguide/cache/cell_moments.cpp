@@ -5,10 +5,8 @@
 namespace waylight {
 namespace {
 
-void forget_half(CellTraining& cell) {
-  cell.count *= 0.5f;
-  cell.position_m2 *= 0.5f;
-  cell.position_cross *= 0.5f;
+void forget_half_of_all(CellTraining& cell) {
+  forget_half(cell);
   cell.normal_m2 *= 0.5f;
 }
 
@@ -25,7 +23,7 @@ void MomentBatch::merge_into(CellTraining& cell) const {
   cell.normal_mean = normal_shift_ + dn * (count_ / n);
   cell.count = n;
   cell.flux += flux_;
-  if (cell.count > kMaxMomentCount) forget_half(cell);
+  if (cell.count > kMaxMomentCount) forget_half_of_all(cell);
 }
 
 void add_moments(CellTraining& cell, const CellTraining& other) {
@@ -36,7 +34,7 @@ void add_moments(CellTraining& cell, const CellTraining& other) {
   cell.normal_m2 += other.normal_m2 + cell.count * share * dn.cwiseProduct(dn);
   cell.normal_mean += share * dn;
   cell.count = n;
-  if (cell.count > kMaxMomentCount) forget_half(cell);
+  if (cell.count > kMaxMomentCount) forget_half_of_all(cell);
 }
 
 // The determinant of the covariance C projected on the plane of n is n^T adj(C) n.

@@ -5,15 +5,6 @@
 #include "libguide/math/saturate.h"
 
 namespace waylight {
-namespace {
-
-void forget_half(MediumTraining& cell) {
-  cell.count *= 0.5f;
-  cell.position_m2 *= 0.5f;
-  cell.position_cross *= 0.5f;
-}
-
-}  // namespace
 
 MediumTrainingCell::MediumTrainingCell(const Bounds& box, const MediumCell& cell,
                                        const MediumTraining& training, const TrainedLobes& indirect,

@@ -48,4 +48,11 @@ void add_position_moments(Training& t, const Training& other) {
 // Integers up to it are exact in float; beyond, the moments become a window over the last photons.
 inline constexpr float kMaxMomentCount = 0x1p24f;
 
+template <typename Training>
+void forget_half(Training& t) {
+  t.count *= 0.5f;
+  t.position_m2 *= 0.5f;
+  t.position_cross *= 0.5f;
+}
+
 }  // namespace waylight
