@@ -23,23 +23,21 @@ inline constexpr float kMinSupport = 1e-3f;  // of a sample
 // Components with support are moved to the front and counted.
 struct StepwiseResult {
   int count = 0;
-  int rejected = 0;
 };
 
 // How the weights of a batch are to be read.
 struct BatchWeights {
-  int used = 0, rejected = 0;  // points of weight 0 are neither
-  float cap = 0;               // weights are cut here
-  float scale = 0;             // 1 / the mean of the cut positive weights
-  float effective = 0;         // (sum w)^2 / sum w^2 of the cut weights
+  int used = 0;         // points of a positive weight
+  float cap = 0;        // weights are cut here
+  float scale = 0;      // 1 / the mean of the cut positive weights
+  float effective = 0;  // (sum w)^2 / sum w^2 of the cut weights
 };
 
 struct CutSums {
   double sum = 0, squares = 0;
 };
 
-// Calls weight_of(i) for each sample: its weight, positive and finite; 0 where it has none; NaN
-// where it is rejected.
+// Calls weight_of(i) for each sample: its weight, positive and finite; 0 where it does not count.
 template <typename WeightOf>
 CutSums cut_sums(size_t count, const WeightOf& weight_of, double cap) {
   CutSums result;
@@ -59,8 +57,7 @@ BatchWeights scan_weights(size_t count, const WeightOf& weight_of, float max_wei
   for (size_t i = 0; i < count; ++i) {
     const float weight = weight_of(i);
     result.used += weight > 0;
-    result.rejected += !(weight >= 0);
-    if (weight > 0) largest = std::max(largest, weight);
+    largest = std::max(largest, weight);
   }
   if (result.used == 0) return result;
   // The cap is a fixed point, cap = ratio * mean(min(w, cap)), sought from above: each round takes

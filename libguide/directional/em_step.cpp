@@ -58,12 +58,7 @@ bool valid_point(const WeightedPoint& point) {
 }
 
 BatchWeights scan_weights(std::span<const WeightedPoint> points, float max_weight) {
-  const auto weight_of = [&](size_t i) {
-    const WeightedPoint& p = points[i];
-    if (valid_point(p)) return p.weight;
-    const bool weightless = p.weight == 0 && p.y.squaredNorm() <= kPlaceLimit;
-    return weightless ? 0 : std::numeric_limits<float>::quiet_NaN();
-  };
+  const auto weight_of = [&](size_t i) { return valid_point(points[i]) ? points[i].weight : 0.0f; };
   return scan_weights(points.size(), weight_of, max_weight);
 }
 

@@ -61,7 +61,6 @@ EmResult fit_mixture(std::span<const WeightedPoint> points, const EmOptions& opt
                      std::span<const GaussianComponent> start) {
   EmResult result;
   const BatchWeights weights = scan_weights(points, options.max_weight);
-  result.rejected = weights.rejected;
   if (weights.used == 0) return result;
   result.components = start_of(points, options, start);
   const StartStatistics start_statistics(result.components, options.start_share);
@@ -93,16 +92,16 @@ EmResult fit_mixture(std::span<const WeightedPoint> points, const EmOptions& opt
 StepwiseResult stepwise_update(std::span<GaussianComponent> components,
                                std::span<ComponentStatistics> statistics, float& step,
                                std::span<const WeightedPoint> batch, float samples,
-                               const MixturePrior& prior, float max_weight) {
-  const BatchWeights weights = scan_weights(batch, max_weight);
+                               const MixturePrior& prior) {
+  const BatchWeights weights = scan_weights(batch, kMaxTrainingWeight);
   const int count = static_cast<int>(components.size());
-  if (weights.used == 0) return {count, weights.rejected};
+  if (weights.used == 0) return {count};
   const BatchStatistics seen = statistics_of(batch, weights, components);
   const float eta = std::pow(step + 1, -0.7f);
   for (int k = 0; k < count; ++k)
     statistics[k] = blend(statistics[k], 1 - eta, seen.components[k], eta);
   step += 1;
-  return {maximization(statistics, samples, prior, components), weights.rejected};
+  return {maximization(statistics, samples, prior, components)};
 }
 
 }  // namespace waylight

@@ -21,7 +21,7 @@ struct MixturePrior {
 
 struct WeightedPoint {
   Vec2 y;
-  float weight;  // non-negative, finite; others are rejected and counted
+  float weight;  // positive, finite; others are left out, and so are places off the domain
 };
 
 struct EmOptions {
@@ -38,7 +38,6 @@ struct EmResult {
   std::vector<GaussianComponent> components;  // those with support only; empty when no valid point
   double log_likelihood = 0;                  // mean over the points by weight, natural logarithm
   int iterations = 0;
-  int rejected = 0;  // points with a negative, infinite or NaN weight or place off the domain
 };
 
 // Batch EM from the given start (or from initial_components of the points when `start` is empty).
@@ -68,6 +67,6 @@ ComponentStatistics statistics_of(const GaussianComponent& component);
 StepwiseResult stepwise_update(std::span<GaussianComponent> components,
                                std::span<ComponentStatistics> statistics, float& step,
                                std::span<const WeightedPoint> batch, float samples,
-                               const MixturePrior& prior, float max_weight = kMaxTrainingWeight);
+                               const MixturePrior& prior);
 
 }  // namespace waylight

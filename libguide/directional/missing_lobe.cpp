@@ -37,11 +37,11 @@ double poisson_gain(double seen, double expected) {
 
 }  // namespace
 
-MissingLobes::MissingLobes(std::span<const WeightedPoint> points, float max_weight) {
-  const BatchWeights weights = scan_weights(points, max_weight);
+MissingLobes::MissingLobes(std::span<const WeightedPoint> points) {
+  const BatchWeights weights = scan_weights(points, kMaxTrainingWeight);
   effective_ = weights.effective;
   for (const WeightedPoint& p : points)
-    if (valid_point(p) && p.weight > 0)
+    if (valid_point(p))
       points_.push_back(
           {bin_of(p.y), p.y,
            std::min(p.weight, weights.cap) * weights.scale / static_cast<float>(weights.used)});

@@ -15,9 +15,8 @@ class GaussianMixture;
 // Looks at points of the disk in bins of two thirds of a degree to ten degrees.
 class MissingLobes {
  public:
-  // Weights as EmOptions has them.
-  explicit MissingLobes(std::span<const WeightedPoint> points,
-                        float max_weight = kMaxTrainingWeight);
+  // Weights are cut as in EmOptions.
+  explicit MissingLobes(std::span<const WeightedPoint> points);
 
   // The Gaussian of the points of that bin in which they most outnumber, by likelihood, what the
   // mixture expects; its weight is their share of all. Bins of fewer than three effective points do

@@ -37,7 +37,6 @@ VmfEmResult fit_vmf_mixture(std::span<const WeightedDirection> points, const Vmf
                             std::span<const VmfComponent> start) {
   VmfEmResult result;
   const BatchWeights weights = scan_weights(points, options.max_weight);
-  result.rejected = weights.rejected;
   if (weights.used == 0) return result;
   result.components = start_of(points, options, start);
   std::vector<DirectionRow> rows(row_count(points.size()));
@@ -61,16 +60,16 @@ VmfEmResult fit_vmf_mixture(std::span<const WeightedDirection> points, const Vmf
 StepwiseResult stepwise_vmf_update(std::span<VmfComponent> components,
                                    std::span<VmfStatistics> statistics, float& step,
                                    std::span<const WeightedDirection> batch, float samples,
-                                   const VmfPrior& prior, float max_weight) {
-  const BatchWeights weights = scan_weights(batch, max_weight);
+                                   const VmfPrior& prior) {
+  const BatchWeights weights = scan_weights(batch, kMaxTrainingWeight);
   const int count = static_cast<int>(components.size());
-  if (weights.used == 0) return {count, weights.rejected};
+  if (weights.used == 0) return {count};
   const VmfBatchStatistics seen = statistics_of(batch, weights, components);
   const float eta = std::pow(step + 1, -0.7f);
   for (int k = 0; k < count; ++k)
     statistics[k] = blend(statistics[k], 1 - eta, seen.components[k], eta);
   step += 1;
-  return {maximization(statistics, samples, prior, components), weights.rejected};
+  return {maximization(statistics, samples, prior, components)};
 }
 
 }  // namespace waylight

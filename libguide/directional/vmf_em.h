@@ -24,8 +24,8 @@ struct VmfPrior {
 };
 
 struct WeightedDirection {
-  Vec3 w;        // unit
-  float weight;  // non-negative, finite; others are rejected and counted
+  Vec3 w;        // unit; others are left out
+  float weight;  // positive, finite; others are left out
 };
 
 struct VmfEmOptions {
@@ -40,7 +40,6 @@ struct VmfEmResult {
   std::vector<VmfComponent> components;  // those with support only; empty when no valid direction
   double log_likelihood = 0;             // mean by weight, natural logarithm
   int iterations = 0;
-  int rejected = 0;  // directions that are not unit, or with a negative, infinite or NaN weight
 };
 
 // Batch EM from the given start (or from initial_vmf_components when `start` is empty).
@@ -62,7 +61,7 @@ std::vector<VmfComponent> initial_vmf_components(std::span<const WeightedDirecti
 StepwiseResult stepwise_vmf_update(std::span<VmfComponent> components,
                                    std::span<VmfStatistics> statistics, float& step,
                                    std::span<const WeightedDirection> batch, float samples,
-                                   const VmfPrior& prior, float max_weight = kMaxTrainingWeight);
+                                   const VmfPrior& prior);
 
 // The statistics whose maximum-likelihood M-step gives a lobe.
 VmfStatistics statistics_of(const VmfComponent& component);

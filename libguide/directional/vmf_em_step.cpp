@@ -30,9 +30,7 @@ bool valid_direction(const WeightedDirection& point) {
 
 BatchWeights scan_weights(std::span<const WeightedDirection> points, float max_weight) {
   const auto weight_of = [&](size_t i) {
-    const WeightedDirection& p = points[i];
-    if (valid_direction(p)) return p.weight;
-    return p.weight == 0 && is_unit(p.w) ? 0 : std::numeric_limits<float>::quiet_NaN();
+    return valid_direction(points[i]) ? points[i].weight : 0.0f;
   };
   return scan_weights(points.size(), weight_of, max_weight);
 }

@@ -22,19 +22,16 @@ class StepwiseEm {
         stepwise_update(components_, statistics_, step_, batch, samples, prior);
     components_.resize(result.count);
     statistics_.resize(result.count);
-    rejected_ += result.rejected;
   }
 
   const std::vector<GaussianComponent>& components() const { return components_; }
   const std::vector<ComponentStatistics>& statistics() const { return statistics_; }
   float step() const { return step_; }
-  int rejected() const { return rejected_; }  // points in all
 
  private:
   std::vector<GaussianComponent> components_;
   std::vector<ComponentStatistics> statistics_;
   float step_;
-  int rejected_ = 0;
 };
 
 }  // namespace waylight::test

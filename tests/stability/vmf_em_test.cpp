@@ -100,9 +100,7 @@ TEST(DegenerateDirections, OneLobeOfBalancedSamplesIsNearlyUniform) {
 TEST(DegenerateDirections, NoSampleOrNoWeightGivesNoMixture) {
   EXPECT_TRUE(fit_vmf_mixture({}, {}).components.empty());
   const Points weightless(10, {somewhere(), 0});
-  const VmfEmResult fit = fit_vmf_mixture(weightless, {});
-  EXPECT_TRUE(fit.components.empty());
-  EXPECT_EQ(fit.rejected, 0);
+  EXPECT_TRUE(fit_vmf_mixture(weightless, {}).components.empty());
   Components components = {{1, Vec3::UnitX(), 7}};
   std::vector<VmfStatistics> statistics(1);
   float step = 0;
@@ -113,7 +111,7 @@ TEST(DegenerateDirections, NoSampleOrNoWeightGivesNoMixture) {
 
 Points ordinary(int count) { return test::draw(VmfMixture(test::random_lobes(4, 2)), count, 1); }
 
-TEST(CorruptDirections, AreRejectedCountedAndWithoutInfluence) {
+TEST(CorruptDirections, AreWithoutInfluence) {
   const Points good = ordinary(2000);
   Points bad = good;
   const float nan = std::nanf("");
@@ -126,8 +124,6 @@ TEST(CorruptDirections, AreRejectedCountedAndWithoutInfluence) {
                                      {Vec3::Zero(), 0}})
     bad.push_back(p);
   const VmfEmResult clean = fit_vmf_mixture(good, {}), dirty = fit_vmf_mixture(bad, {});
-  EXPECT_EQ(clean.rejected, 0);
-  EXPECT_EQ(dirty.rejected, 7);
   ASSERT_EQ(clean.components.size(), dirty.components.size());
   for (size_t k = 0; k < clean.components.size(); ++k)
     EXPECT_EQ(clean.components[k].mean, dirty.components[k].mean);
