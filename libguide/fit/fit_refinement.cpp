@@ -44,8 +44,7 @@ void FitRefinement::run(size_t task) {
 }
 
 void FitRefinement::fit_entry(size_t i) {
-  const LobeTargets target(1,
-                           places_.target(static_cast<int>(i), static_cast<int>(entries_.size())));
+  const LobeTarget target = places_.target(static_cast<int>(i), static_cast<int>(entries_.size()));
   EntryFit& fit = entries_[i];
   const bool first = coarser_.empty();
   fit.details =
@@ -57,7 +56,7 @@ void FitRefinement::fit_entry(size_t i) {
 
 void FitRefinement::test_place(size_t i) {
   const int place = static_cast<int>(i);
-  const LobeTargets target(1, places_.target(place, static_cast<int>(coarser_.size())));
+  const LobeTarget target = places_.target(place, static_cast<int>(coarser_.size()));
   const std::vector<ServingEntry> serving =
       places_.serving(place, static_cast<int>(entries_.size()));
   float error = 0;

@@ -14,13 +14,13 @@ std::optional<Vec2> sample_one(std::span<const FitDensity> mixtures, float u, co
   return mixtures[chosen].sample(std::min(scaled - chosen, kOneMinusEpsilon), u2);
 }
 
-std::optional<LobePoint> draw(const LobeTargets& targets, std::span<const FitDensity> mixtures,
-                              size_t index, const UnitPoint& unit) {
-  if (unit.u < kLobeShare) return sample_lobe(targets, index, {unit.u / kLobeShare, unit.u2});
-  if (unit.u >= kLobeShare + kMixtureShare) return evaluate_lobe(targets, square_to_disk(unit.u2));
+std::optional<LobePoint> draw(const LobeTarget& target, std::span<const FitDensity> mixtures,
+                              const UnitPoint& unit) {
+  if (unit.u < kLobeShare) return sample_lobe(target, {unit.u / kLobeShare, unit.u2});
+  if (unit.u >= kLobeShare + kMixtureShare) return evaluate_lobe(target, square_to_disk(unit.u2));
   const auto y = sample_one(mixtures, (unit.u - kLobeShare) / kMixtureShare, unit.u2);
   if (!y || y->squaredNorm() >= 1) return std::nullopt;
-  return evaluate_lobe(targets, *y);
+  return evaluate_lobe(target, *y);
 }
 
 float mean_pdf(std::span<const FitDensity> mixtures, const Vec2& y) {  // per steradian
@@ -55,12 +55,12 @@ std::optional<Vec2> FitDensity::sample(float u, const Vec2& u2) const {
   return parts_[1].sample((u - first_share_) / (1 - first_share_), u2);
 }
 
-LobeJudge::LobeJudge(const LobeTargets& targets, std::span<const FitDensity> mixtures,
+LobeJudge::LobeJudge(const LobeTarget& target, std::span<const FitDensity> mixtures,
                      std::span<const UnitPoint> units)
     : drawn_(units.size()) {
   points_.reserve(units.size());
-  for (size_t i = 0; i < units.size(); ++i) {
-    std::optional<LobePoint> p = draw(targets, mixtures, i, units[i]);
+  for (const UnitPoint& unit : units) {
+    std::optional<LobePoint> p = draw(target, mixtures, unit);
     if (!p) continue;
     p->pdf = kLobeShare * p->pdf + kMixtureShare * mean_pdf(mixtures, p->y) +
              kUniformShare * kHemispherePdf;
@@ -78,11 +78,11 @@ float LobeJudge::error(const FitDensity& mixture) const {
   return static_cast<float>(std::min(difference / drawn_, 2.0));
 }
 
-float held_out_error(const LobeTargets& targets, const GaussianMixture& mixture, uint64_t seed) {
+float held_out_error(const LobeTarget& target, const GaussianMixture& mixture, uint64_t seed) {
   constexpr int kPoints = 1024;
   constexpr uint64_t kStream = 0x4e1d;  // apart from every sequence of the fit
   const FitDensity density(mixture);
-  const LobeJudge judge(targets, std::span(&density, 1), unit_points(seed, kStream, kPoints));
+  const LobeJudge judge(target, std::span(&density, 1), unit_points(seed, kStream, kPoints));
   return judge.error(density);
 }
 

@@ -25,7 +25,7 @@ class FitDensity {
 class LobeJudge {
  public:
   // units: one a point, independent of those of the fit.
-  LobeJudge(const LobeTargets& targets, std::span<const FitDensity> mixtures,
+  LobeJudge(const LobeTarget& target, std::span<const FitDensity> mixtures,
             std::span<const UnitPoint> units);
 
   // The integral of |f - G| over the upper hemisphere, f normalised there and G the mixture's own
@@ -39,6 +39,6 @@ class LobeJudge {
 };
 
 // The error of one mixture, at points of its own.
-float held_out_error(const LobeTargets& targets, const GaussianMixture& mixture, uint64_t seed);
+float held_out_error(const LobeTarget& target, const GaussianMixture& mixture, uint64_t seed);
 
 }  // namespace waylight

@@ -71,7 +71,7 @@ float excess(const BrdfCache& cache, const WidthSeries& series, const Bsdf& bsdf
   const EntryFit entry = entry_of(cache, series.first_entry + i);
   const GaussianMixture mixture(entry.components);
   const Mat3 rotation = entry_rotation(EntryLayout::elevations, wo, i, n);
-  return held_out_error(LobeTargets(1, LobeTarget(bsdf, wo)), mixture.carried(rotation), seed) -
+  return held_out_error(LobeTarget(bsdf, wo), mixture.carried(rotation), seed) -
          entry.held_out_error;
 }
 

@@ -8,7 +8,7 @@
 namespace waylight {
 namespace {
 
-constexpr int kUniformOf = 4;  // one point of so many is uniform over the hemisphere
+constexpr int kUniformOf = 4;   // one point of so many is uniform over the hemisphere
 constexpr float kUniformShare = 1.0f / kUniformOf;
 constexpr int kStartTries = 8;  // a rough lobe throws more than half of its samples below ground
 constexpr int kSelectionPoints = 512, kReportPoints = 1024;
@@ -53,7 +53,7 @@ std::vector<WeightedPoint> weighted(std::span<const LobePoint> points) {
 }  // namespace
 
 struct LobeFitter::Work {
-  const LobeTargets& targets;
+  const LobeTarget& target;
   std::vector<LobePoint> points;
   std::vector<LobeRow> rows;
   Components em, ceres;
@@ -72,37 +72,37 @@ LobeFitter::LobeFitter(const LobeFitOptions& options) : options_(options) {
   report_units_ = units(kReportStream, kReportPoints);
 }
 
-std::vector<LobePoint> LobeFitter::draw_points(const LobeTargets& targets) const {
+std::vector<LobePoint> LobeFitter::draw_points(const LobeTarget& target) const {
   std::vector<LobePoint> points;
   points.reserve(options_.samples);
-  for (size_t i = 0; i < lobe_units_.size(); ++i)
-    if (const auto p = sample_lobe(targets, i, lobe_units_[i])) points.push_back(*p);
+  for (const UnitPoint& unit : lobe_units_)
+    if (const auto p = sample_lobe(target, unit)) points.push_back(*p);
   for (const UnitPoint& unit : disk_units_)
-    points.push_back(evaluate_lobe(targets, square_to_disk(unit.u2)));
+    points.push_back(evaluate_lobe(target, square_to_disk(unit.u2)));
   for (LobePoint& p : points) p.pdf = lerp(p.pdf, kHemispherePdf, kUniformShare);
   return points;
 }
 
 // K directions of the lobe.
-std::vector<Vec2> LobeFitter::start_centres(const LobeTargets& targets) const {
+std::vector<Vec2> LobeFitter::start_centres(const LobeTarget& target) const {
   std::vector<Vec2> centres;
   const size_t count = options_.components;
   for (size_t i = 0; centres.size() < count && i < start_units_.size(); ++i)
-    if (const auto p = sample_lobe(targets, i, start_units_[i])) centres.push_back(p->y);
+    if (const auto p = sample_lobe(target, start_units_[i])) centres.push_back(p->y);
   return centres;
 }
 
-Components LobeFitter::fit_em(const LobeTargets& targets, std::span<const LobePoint> points) const {
+Components LobeFitter::fit_em(const LobeTarget& target, std::span<const LobePoint> points) const {
   const std::vector<WeightedPoint> weights = weighted(points);
-  const Components start = components_around(weights, start_centres(targets), options_.prior);
+  const Components start = components_around(weights, start_centres(target), options_.prior);
   return fit_mixture(weights, em_options(options_), start).components;
 }
 
 // With the components asked for.
 void LobeFitter::fit_asked(Work& work, std::span<const GaussianComponent> neighbour) const {
   const double em_begin = thread_seconds();
-  work.points = draw_points(work.targets);
-  work.em = fit_em(work.targets, work.points);
+  work.points = draw_points(work.target);
+  work.em = fit_em(work.target, work.points);
   work.fit.em_seconds = thread_seconds() - em_begin;
   if (options_.method == FitMethod::em || work.em.empty()) return;
   const double ceres_begin = thread_seconds();
@@ -121,7 +121,7 @@ void LobeFitter::choose_method(Work& work) const {
   if (work.ceres.empty()) work.fit.method = FitMethod::em;
   if (work.fit.method == FitMethod::best) {
     const FitDensity both[] = {FitDensity(work.em), FitDensity(work.ceres)};
-    const LobeJudge judge(work.targets, both, selection_units_);
+    const LobeJudge judge(work.target, both, selection_units_);
     work.fit.method =
         judge.error(both[1]) < judge.error(both[0]) ? FitMethod::ceres : FitMethod::em;
   }
@@ -133,7 +133,7 @@ void LobeFitter::choose_count(Work& work) const {
   Components& best = work.fit.components;
   const std::vector<WeightedPoint> weights = weighted(work.points);
   const FitDensity asked(best);
-  const LobeJudge judge(work.targets, std::span(&asked, 1), selection_units_);
+  const LobeJudge judge(work.target, std::span(&asked, 1), selection_units_);
   const float limit = judge.error(asked) + kCountTolerance;
   for (const int count : kCounts) {
     if (count >= static_cast<int>(best.size())) continue;
@@ -152,16 +152,16 @@ void LobeFitter::report(Work& work) const {
   const FitDensity mixtures[] = {FitDensity(work.em),
                                  FitDensity(work.ceres.empty() ? work.em : work.ceres),
                                  FitDensity(work.fit.components)};
-  const LobeJudge judge(work.targets, mixtures, report_units_);
+  const LobeJudge judge(work.target, mixtures, report_units_);
   work.fit.em_error = judge.error(mixtures[0]);
   work.fit.ceres_error = judge.error(mixtures[1]);
   work.fit.error = judge.error(mixtures[2]);
 }
 
-LobeFit LobeFitter::fit(const LobeTargets& targets,
+LobeFit LobeFitter::fit(const LobeTarget& target,
                         std::span<const GaussianComponent> neighbour) const {
   const double begin = thread_seconds();
-  Work work{targets, {}, {}, {}, {}, {}};
+  Work work{target, {}, {}, {}, {}, {}};
   fit_asked(work, neighbour);
   if (work.em.empty()) return work.fit;
   choose_method(work);

@@ -40,22 +40,22 @@ class LobeFitter {
 
   // neighbour: the fit of a wo near by, or nothing. The refinement starts from it where it is the
   // better start. The result depends on the arguments alone.
-  LobeFit fit(const LobeTargets& targets, std::span<const GaussianComponent> neighbour = {}) const;
+  LobeFit fit(const LobeTarget& target, std::span<const GaussianComponent> neighbour = {}) const;
 
   // What EM and the refinement see: three quarters of the samples drawn by the BSDF's own sampler,
   // and, so that f / pdf is bounded where f is not small and that sampler seldom goes (f / p of a
   // cosine-weighted sampler grows as 1 / cos), one quarter stratified over the hemisphere.
-  std::vector<LobePoint> draw_points(const LobeTargets& targets) const;
+  std::vector<LobePoint> draw_points(const LobeTarget& target) const;
 
   // Weighted MAP EM from one start. Measured over 20 lobes: further starts by k-means++ gain
   // nothing on the mean, and four times the points a fifth of the error for four times the time.
-  std::vector<GaussianComponent> fit_em(const LobeTargets& targets,
+  std::vector<GaussianComponent> fit_em(const LobeTarget& target,
                                         std::span<const LobePoint> points) const;
 
  private:
   struct Work;  // on one entry
 
-  std::vector<Vec2> start_centres(const LobeTargets& targets) const;
+  std::vector<Vec2> start_centres(const LobeTarget& target) const;
   void fit_asked(Work& work, std::span<const GaussianComponent> neighbour) const;
   void choose_method(Work& work) const;
   void choose_count(Work& work) const;

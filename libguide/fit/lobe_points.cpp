@@ -1,27 +1,6 @@
 #include "libguide/fit/lobe_points.h"
 
 namespace waylight {
-namespace {
-
-LobeTarget::Value mean_value(const LobeTargets& targets, const Vec3& wi) {
-  LobeTarget::Value sum;
-  for (const LobeTarget& target : targets) {
-    const LobeTarget::Value at = target.evaluate(wi);
-    sum.f += at.f / targets.size(), sum.pdf += at.pdf / targets.size();
-  }
-  return sum;
-}
-
-}  // namespace
-
-LobeTargets lobe_targets(const Bsdf& bsdf, float theta, bool anisotropic) {
-  constexpr int kAzimuths = 16;
-  const int count = anisotropic ? kAzimuths : 1;
-  LobeTargets targets;
-  for (int i = 0; i < count; ++i) targets.emplace_back(bsdf, theta, 2 * kPi * i / count);
-  return targets;
-}
-
 std::vector<UnitPoint> unit_points(uint64_t seed, uint64_t stream, int count) {
   std::vector<UnitPoint> points(count);
   for (int i = 0; i < count; ++i) {
@@ -32,17 +11,15 @@ std::vector<UnitPoint> unit_points(uint64_t seed, uint64_t stream, int count) {
   return points;
 }
 
-std::optional<LobePoint> sample_lobe(const LobeTargets& targets, size_t index, const UnitPoint& u) {
-  const LobeTarget& target = targets[index % targets.size()];
+std::optional<LobePoint> sample_lobe(const LobeTarget& target, const UnitPoint& u) {
   const std::optional<LobeTarget::Sample> s = target.sample_value(u.u, u.u2);
   if (!s) return std::nullopt;
-  const LobeTarget::Value at = targets.size() == 1 ? s->value : mean_value(targets, s->wi);
-  if (!std::isfinite(at.f) || !std::isfinite(at.pdf)) return std::nullopt;
-  return LobePoint{direction_to_disk(s->wi), at.f, at.pdf};
+  if (!std::isfinite(s->value.f) || !std::isfinite(s->value.pdf)) return std::nullopt;
+  return LobePoint{direction_to_disk(s->wi), s->value.f, s->value.pdf};
 }
 
-LobePoint evaluate_lobe(const LobeTargets& targets, const Vec2& y) {
-  const LobeTarget::Value at = mean_value(targets, disk_to_direction(y));
+LobePoint evaluate_lobe(const LobeTarget& target, const Vec2& y) {
+  const LobeTarget::Value at = target.evaluate(disk_to_direction(y));
   const bool finite = std::isfinite(at.f) && std::isfinite(at.pdf);
   return finite ? LobePoint{y, at.f, at.pdf} : LobePoint{y, 0, 0};
 }

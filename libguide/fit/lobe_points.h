@@ -9,10 +9,6 @@
 
 namespace waylight {
 
-// The targets of one entry: one wo, or several whose mean is fitted.
-using LobeTargets = std::vector<LobeTarget>;
-LobeTargets lobe_targets(const Bsdf& bsdf, float theta, bool anisotropic);
-
 // Random numbers of one sequence, drawn once: all entries share them. Neighbours in elevation are
 // then fitted to points that move with the lobe, and equal lobes get equal fits.
 struct UnitPoint {
@@ -29,9 +25,9 @@ struct LobePoint {
 };
 
 // By the BSDF's own sampler; nothing where it fails. pdf is that of the sampler alone.
-std::optional<LobePoint> sample_lobe(const LobeTargets& targets, size_t index, const UnitPoint& u);
+std::optional<LobePoint> sample_lobe(const LobeTarget& target, const UnitPoint& u);
 // At a given point of the unit disk.
-LobePoint evaluate_lobe(const LobeTargets& targets, const Vec2& y);
+LobePoint evaluate_lobe(const LobeTarget& target, const Vec2& y);
 
 // Eight points in lanes. target is f normalised to integrate to one over the unit disk, area the
 // share of the disk that the point stands for, 1 / (count pdf): sums of area * g estimate the

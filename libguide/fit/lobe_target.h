@@ -13,11 +13,7 @@ namespace waylight {
 // wo or, for lobes that are anisotropic, that of the shading frame.
 class LobeTarget {
  public:
-  LobeTarget(const Bsdf& bsdf, const Vec3& wo) : bsdf_(bsdf), cosine_(1), sine_(0), wo_(wo) {}
-  LobeTarget(const Bsdf& bsdf, float theta, float azimuth)
-      : bsdf_(bsdf), cosine_(std::cos(azimuth)), sine_(std::sin(azimuth)) {
-    wo_ = rotated({std::sin(theta), 0, std::cos(theta)});
-  }
+  LobeTarget(const Bsdf& bsdf, const Vec3& wo) : bsdf_(bsdf), wo_(wo) {}
 
   struct Value {
     float f = 0;    // luminance of f, 1/sr; zero below the horizon
@@ -25,7 +21,7 @@ class LobeTarget {
   };
   Value evaluate(const Vec3& wi) const {
     if (!(wi.z() > 0)) return {};
-    const EvalPdf e = bsdf_.evaluate(wo_, rotated(wi));
+    const EvalPdf e = bsdf_.evaluate(wo_, wi);
     return {luminance(e.value) / wi.z(), e.pdf};
   }
   // By the BSDF's own sampler, which knows the value of what it draws.
@@ -36,9 +32,7 @@ class LobeTarget {
   std::optional<Sample> sample_value(float u, const Vec2& u2) const {
     const std::optional<BsdfSample> s = bsdf_.sample(wo_, u, u2);
     if (!s || !(s->wi.z() > 0)) return std::nullopt;
-    return Sample{{cosine_ * s->wi.x() + sine_ * s->wi.y(), cosine_ * s->wi.y() - sine_ * s->wi.x(),
-                   s->wi.z()},
-                  {luminance(s->weight) * (s->pdf / s->wi.z()), s->pdf}};
+    return Sample{s->wi, {luminance(s->weight) * (s->pdf / s->wi.z()), s->pdf}};
   }
   std::optional<Vec3> sample(float u, const Vec2& u2) const {
     const std::optional<Sample> s = sample_value(u, u2);
@@ -46,12 +40,7 @@ class LobeTarget {
   }
 
  private:
-  Vec3 rotated(const Vec3& w) const {
-    return {cosine_ * w.x() - sine_ * w.y(), sine_ * w.x() + cosine_ * w.y(), w.z()};
-  }
-
   const Bsdf& bsdf_;
-  float cosine_, sine_;
   Vec3 wo_;
 };
 

@@ -20,13 +20,14 @@ constexpr int kElevations = 16;
 struct Lobes {
   Bsdf bsdf;
   LobeFitter fitter;
-  std::vector<LobeTargets> targets;
+  std::vector<LobeTarget> targets;
   std::vector<std::vector<LobePoint>> points;
 
   explicit Lobes(const benchmark::State& state) : fitter(options_of(state)) {
     bsdf.add(metal(1e-3f * state.range(0)), 1);
     for (int i = 0; i < kElevations; ++i) {
-      targets.push_back(lobe_targets(bsdf, (i + 0.5f) / kElevations * 0.5f * kPi, false));
+      const float theta = (i + 0.5f) / kElevations * 0.5f * kPi;
+      targets.push_back(LobeTarget(bsdf, {std::sin(theta), 0, std::cos(theta)}));
       points.push_back(fitter.draw_points(targets[i]));
     }
   }

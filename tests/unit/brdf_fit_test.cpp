@@ -263,15 +263,15 @@ std::vector<MaterialModel> all_kinds() {
   return models;
 }
 
-void expect_finite_fit(const LobeTargets& targets, const std::string& name) {
-  const std::vector<GaussianComponent> components = LobeFitter({}).fit(targets).components;
+void expect_finite_fit(const LobeTarget& target, const std::string& name) {
+  const std::vector<GaussianComponent> components = LobeFitter({}).fit(target).components;
   const GaussianMixture mixture(components);
   ASSERT_GT(mixture.count(), 0) << name;
   ASSERT_EQ(mixture.count(), static_cast<int>(components.size())) << name;
   for (const GaussianComponent& c : components)
     for (const float v : {c.weight, c.mean_x, c.mean_y, c.cov_xx, c.cov_xy, c.cov_yy})
       ASSERT_TRUE(std::isfinite(v)) << name;
-  const float error = held_out_error(targets, mixture, 0);
+  const float error = held_out_error(target, mixture, 0);
   ASSERT_GE(error, 0) << name;
   ASSERT_LE(error, 2) << name;
 }
@@ -284,7 +284,7 @@ TEST(BrdfFit, EveryLobeGivesAFiniteMixtureUpToGrazingElevations) {
       const float theta = degrees * kPi / 180;
       const Vec3 wo(std::sin(theta) * 0.8f, std::sin(theta) * 0.6f, std::cos(theta));
       expect_finite_fit(
-          {LobeTarget(bsdf, wo)},
+          LobeTarget(bsdf, wo),
           fmt::format("{} {} from {}", material_kind(scene.materials[m]), m, degrees));
     }
   }
@@ -354,7 +354,7 @@ TEST(BrdfFit, WithinTheToleranceFewEntriesFollowTheLobeAtAnyElevation) {
       const int entry = nearest_entry(EntryLayout::elevations, wo, n);
       const Mat3 rotation = entry_rotation(EntryLayout::elevations, wo, entry, n);
       const GaussianMixture g = mixture(result.cache, result.cache.entries[entry]);
-      sum += held_out_error({LobeTarget(bsdf, wo)}, g.carried(rotation), 3) / kPlaces;
+      sum += held_out_error(LobeTarget(bsdf, wo), g.carried(rotation), 3) / kPlaces;
     }
     EXPECT_LT(sum, result.summary.materials[0].held_out_error + 0.04) << "alpha " << alpha;
   }

@@ -19,8 +19,9 @@ Bsdf metal(float alpha, float alpha_v, MicrofacetDistribution kind) {
 }
 Bsdf ggx(float alpha) { return metal(alpha, alpha, MicrofacetDistribution::ggx); }
 
-LobeTargets at(const Bsdf& bsdf, float degrees) {
-  return lobe_targets(bsdf, degrees * kPi / 180, false);
+LobeTarget at(const Bsdf& bsdf, float degrees) {
+  const float theta = degrees * kPi / 180;
+  return LobeTarget(bsdf, {std::sin(theta), 0, std::cos(theta)});
 }
 
 LobeFitter fitter(FitMethod method, int components, bool fixed) {
@@ -132,7 +133,7 @@ TEST(LobeFit, IterationsAreBoundedAndFitsValidAtAnyWidth) {
 
 TEST(LobeJudge, FindsAMixtureThatHidesItsMassWhereTheLobeIsNot) {
   const Bsdf bsdf = ggx(0.02f);
-  const LobeTargets target = at(bsdf, 60);
+  const LobeTarget target = at(bsdf, 60);
   const std::vector<GaussianComponent> elsewhere = {{1, 0.5f, 0.5f, 1e-5f, 0, 1e-5f}};
   EXPECT_NEAR(held_out_error(target, GaussianMixture(elsewhere), 0), 2, 0.1);
 }
