@@ -9,7 +9,6 @@ namespace waylight {
 namespace {
 
 constexpr int kUniformOf = 4;   // one point of so many is uniform over the hemisphere
-constexpr float kUniformShare = 1.0f / kUniformOf;
 constexpr int kStartTries = 8;  // a rough lobe throws more than half of its samples below ground
 constexpr int kSelectionPoints = 512, kReportPoints = 1024;
 
@@ -79,7 +78,8 @@ std::vector<LobePoint> LobeFitter::draw_points(const LobeTarget& target) const {
     if (const auto p = sample_lobe(target, unit)) points.push_back(*p);
   for (const UnitPoint& unit : disk_units_)
     points.push_back(evaluate_lobe(target, square_to_disk(unit.u2)));
-  for (LobePoint& p : points) p.pdf = lerp(p.pdf, kHemispherePdf, kUniformShare);
+  const float uniform_share = static_cast<float>(disk_units_.size()) / options_.samples;
+  for (LobePoint& p : points) p.pdf = lerp(p.pdf, kHemispherePdf, uniform_share);
   return points;
 }
 

@@ -108,6 +108,18 @@ TEST(LobeFit, NeighboursSaveIterationsAndCostNoError) {
   EXPECT_LT(warm_error, 1.02f * cold_error);
 }
 
+// Four of nineteen samples are uniform.
+TEST(LobeFit, PointsHaveTheDensityOfAllThatDrewThem) {
+  Bsdf bsdf;
+  bsdf.add(Diffuse{Color::Ones()}, 1);
+  LobeFitOptions options;
+  options.samples = 19;
+  for (const LobePoint& p : LobeFitter(options).draw_points(at(bsdf, 30))) {
+    const float cosine = disk_to_direction(p.y).z();
+    EXPECT_NEAR(p.pdf, (15 * cosine * kInvPi + 4 * kHemispherePdf) / 19, 1e-5f);
+  }
+}
+
 TEST(LobeFit, EmAloneIsWhatItSays) {
   const Bsdf bsdf = ggx(0.3f);
   const LobeFit fit = fitter(FitMethod::em, 8, true).fit(at(bsdf, 40));
