@@ -57,20 +57,9 @@ class Assembly {
     result_.summary.materials.push_back(std::move(summary));
   }
 
-  // In place of add() where the user stopped the run before the material was complete.
-  void leave_out(const PlannedFit& fit) {
-    const Material& material = scene_.materials[fit.material];
-    places_.push_back(kNowhere);
-    result_.summary.skipped.push_back(
-        fmt::format("{} ({}): interrupted", material.name, material_kind(material)));
-  }
-
-  bool has(int fit) const { return places_[fit] != kNowhere; }
   BrdfFitResult finish() { return std::move(result_); }
 
  private:
-  static constexpr size_t kNowhere = ~size_t{0};
-
   void store(std::span<const FittedSeries> series, MaterialFit& record,
              MaterialFitSummary& summary) {
     for (size_t i = 0; i < series.size(); ++i) {
@@ -160,11 +149,7 @@ BrdfFitResult assemble(const SceneDescription& scene, const FitPlan& plan,
                        const SeriesLimits& limits,
                        std::span<const std::vector<FittedSeries>> series) {
   Assembly assembly(scene, plan, limits);
-  for (size_t f = 0; f < plan.fits.size(); ++f) {
-    const PlannedFit& fit = plan.fits[f];
-    const bool known = fit.same_as < 0 ? !series[f].empty() : assembly.has(fit.same_as);
-    known ? assembly.add(fit, series[f]) : assembly.leave_out(fit);
-  }
+  for (size_t f = 0; f < plan.fits.size(); ++f) assembly.add(plan.fits[f], series[f]);
   return assembly.finish();
 }
 
@@ -191,7 +176,10 @@ BrdfFitResult fit_brdfs(const SceneDescription& scene, const BrdfFitOptions& opt
   for (const PlannedFit& fit : plan.fits)
     warn_of_means(scene.materials[fit.material], fit, control);
   const SeriesLimits limits = limits_of(options);
-  return assemble(scene, plan, limits, fit_series(scene, plan, families, limits, control));
+  const std::vector<std::vector<FittedSeries>> series =
+      fit_series(scene, plan, families, limits, control);
+  if (control.stopped()) return {};
+  return assemble(scene, plan, limits, series);
 }
 
 BrdfFitResult fit_family(const std::string& name, const BrdfFitOptions& options,

@@ -79,8 +79,8 @@ struct BrdfFitResult {
 // shape share theirs. Isotropic lobes have entries by elevation, anisotropic ones by direction;
 // where the width is textured there are entries for a series of widths, everything else that is
 // textured is fitted at its mean, which is warned of. Left out are delta and null materials, and
-// those with rough transmission: the guides stand over one hemisphere. A stopped run keeps the
-// materials that were complete. The result does not depend on the number of threads.
+// those with rough transmission: the guides stand over one hemisphere. Empty where the user
+// stopped. The result does not depend on the number of threads.
 //
 // families: results of fit_family. Their entries serve what they fit as well as their own lobe,
 // within twice the tolerance, and are copied.

@@ -29,9 +29,10 @@ struct FitPlaces {
   std::function<std::vector<ServingEntry>(int i, int n)> serving;
 };
 
-// Fits 2, 4, 8 ... entries. A number suffices once, at the places of the number before, the error
-// of the entries that serve them is no more than `tolerance` above that of the places' own fits,
-// in the mean. The last number is `most`, reached at once where the tolerance is 0.
+// Fits 2, 4, 8 ... entries. A number suffices once, at the places of the
+// number before, the error of the entries that serve them is no more than `tolerance` above that of
+// the places' own fits, in the mean. The last number is `most`, reached at once where the tolerance
+// is 0.
 class FitRefinement {
  public:
   FitRefinement(FitPlaces places, int first, int most, float tolerance,
@@ -70,7 +71,7 @@ class FitRefinement {
 // The entries of a lobe: the wo of the layout.
 FitPlaces wo_places(std::shared_ptr<const Bsdf> bsdf, EntryLayout layout);
 
-// Runs them all, in parallel. Those that were not complete when the user stopped keep tasks().
+// Runs them all, in parallel, until they are complete or the user stops.
 void refine_all(std::span<FitRefinement> refinements, const RunControl& control);
 
 }  // namespace waylight

@@ -45,22 +45,12 @@ std::vector<FittedSeries> from_families(const SceneDescription& scene, const Pla
   return {};
 }
 
-bool complete(std::span<const FitRefinement> refinements) {
-  return std::all_of(refinements.begin(), refinements.end(),
-                     [](const FitRefinement& r) { return r.tasks() == 0; });
-}
-
-// Moves the complete fits into the result.
 void collect(const Work& work, std::vector<std::vector<FittedSeries>>& result) {
-  for (size_t first = 0; first < work.places.size();) {
-    const size_t fit = work.places[first].fit;
-    size_t count = 0;
-    while (first + count < work.places.size() && work.places[first + count].fit == fit) ++count;
-    const auto refinements = std::span(work.refinements).subspan(first, count);
-    for (size_t i = 0; i < count && complete(refinements); ++i)
-      result[fit].push_back({work.places[first + i].width, refinements[i].entries(),
-                             refinements[i].seconds(), refinements[i].seconds_per_fit()});
-    first += count;
+  for (size_t i = 0; i < work.places.size(); ++i) {
+    const Work::Place& place = work.places[i];
+    const FitRefinement& refinement = work.refinements[i];
+    result[place.fit].push_back({place.width, refinement.entries(), refinement.seconds(),
+                                 refinement.seconds_per_fit()});
   }
 }
 
@@ -85,6 +75,7 @@ std::vector<std::vector<FittedSeries>> fit_series(const SceneDescription& scene,
     if (result[f].empty()) add_fit(work, scene, f, fit, limits, control);
   }
   refine_all(work.refinements, control);
+  if (control.stopped()) return {};
   collect(work, result);
   return result;
 }

@@ -25,8 +25,8 @@ struct FittedSeries {
   double seconds = 0, seconds_per_fit = 0;  // of one core; 0 where a family served
 };
 
-// By fit of the plan, ascending in width. Families are looked at first, in their order. Empty for
-// fits that an earlier one serves, and for those that were not complete when the user stopped.
+// By fit of the plan, ascending in width; empty for fits that an earlier one serves. Families are
+// looked at first, in their order. Nothing at all where the user stopped.
 std::vector<std::vector<FittedSeries>> fit_series(const SceneDescription& scene,
                                                   const FitPlan& plan,
                                                   std::span<const BrdfCache> families,

@@ -497,15 +497,14 @@ TEST(BrdfFit, TheResultIsTheSameAtAnyThreadCount) {
             0);
 }
 
-TEST(BrdfFit, AStoppedRunKeepsCompleteMaterialsOnly) {
+TEST(BrdfFit, AStoppedRunGivesNothing) {
   std::atomic<bool> stop{false};
   RunControl control;
   control.stop = &stop;
   control.on_progress = [&](double, double, const char*) { stop = true; };
   const BrdfFitResult result = fit(shown({metal(0.1f), metal(0.2f), metal(0.1f)}), 200, control);
-  ASSERT_EQ(result.cache.materials.size(), 2u);  // the third shares with the first
-  EXPECT_EQ(result.cache.entries.size(), 200u);
-  EXPECT_EQ(result.summary.skipped, std::vector<std::string>{"m1 (roughconductor): interrupted"});
+  EXPECT_TRUE(result.cache.materials.empty());
+  EXPECT_TRUE(result.summary.materials.empty());
 }
 
 TEST(BrdfFitOptionsTest, ValidateNamesTheField) {
