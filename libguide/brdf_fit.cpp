@@ -93,8 +93,11 @@ class Assembly {
       summary.mean_components += double(count);
       summary.held_out_error += fit.held_out_error;
       summary.bytes += sizeof(BrdfCacheEntry) + count * sizeof(GaussianComponent);
-      if (series.seconds_per_fit > 0)
-        add_details(fit, std::acos(entry_wo(layout, i, entries).z()), summary);
+      const bool fitted = series.seconds_per_fit > 0;
+      const size_t most = std::min(limits_.lobe.components, GaussianMixture::kMaxComponents);
+      result_.summary.bytes_at_most_components +=
+          sizeof(BrdfCacheEntry) + (fitted ? most : count) * sizeof(GaussianComponent);
+      if (fitted) add_details(fit, std::acos(entry_wo(layout, i, entries).z()), summary);
     }
     summary.entries += static_cast<int>(series.entries.size());
     return stored;
@@ -105,9 +108,6 @@ class Assembly {
     summary.em_error += details.em_error, summary.ceres_error += details.ceres_error;
     summary.ceres_share += details.method == FitMethod::ceres;
     summary.em_seconds += details.em_seconds, summary.ceres_seconds += details.ceres_seconds;
-    const int most = std::min(limits_.lobe.components, GaussianMixture::kMaxComponents);
-    result_.summary.bytes_at_most_components +=
-        sizeof(BrdfCacheEntry) + most * sizeof(GaussianComponent);
     result_.summary.entries.push_back(
         {result_.summary.materials.size(), theta, fit.components.size(), details});
   }
@@ -123,6 +123,7 @@ class Assembly {
     summary.held_out_error = first.held_out_error;
     summary.em_error = first.em_error, summary.ceres_error = first.ceres_error;
     summary.ceres_share = first.ceres_share;
+    summary.from_family = first.from_family;
     summary.shares_with = first.name;
   }
 

@@ -36,7 +36,7 @@ struct MaterialFitSummary {
   int entries = 0;  // of all series
   double mean_components = 0;
   double held_out_error = 0;  // means over entries, here and of the two methods (LobeFit)
-  double em_error = 0, ceres_error = 0;
+  double em_error = 0, ceres_error = 0;      // not known, 0, where a family serves
   double ceres_share = 0;                    // of the entries that the refinement made
   double em_seconds = 0, ceres_seconds = 0;  // of one core, for the entries that were kept
   double seconds = 0;  // of one core, fits and tests that were not kept included
@@ -66,7 +66,8 @@ struct BrdfFitSummary {
   // Estimated for as many entries as the options allow, for each material its own, at as many
   // widths.
   FitCost full;
-  size_t bytes_at_most_components = 0;  // of the entries, had each as many as were asked for
+  // Of the entries, had each that was fitted here as many as were asked for.
+  size_t bytes_at_most_components = 0;
 };
 
 struct BrdfFitResult {

@@ -1,16 +1,14 @@
 #include "libguide/fit/fit_refinement.h"
 
-#include <chrono>
 #include <numeric>
 
 #include "libguide/base/parallel.h"
+#include "libguide/base/stopwatch.h"
 #include "libguide/directional/entry_layout.h"
 #include "libguide/fit/lobe_error.h"
 
 namespace waylight {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 double sum(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
@@ -38,9 +36,9 @@ void FitRefinement::start(int count) {
 size_t FitRefinement::tasks() const { return phase_ == Phase::done ? 0 : task_seconds_.size(); }
 
 void FitRefinement::run(size_t task) {
-  const Clock::time_point start = Clock::now();
+  const double begin = thread_seconds();
   phase_ == Phase::fit ? fit_entry(task) : test_place(task);
-  task_seconds_[task] = std::chrono::duration<double>(Clock::now() - start).count();
+  task_seconds_[task] = thread_seconds() - begin;
 }
 
 void FitRefinement::fit_entry(size_t i) {

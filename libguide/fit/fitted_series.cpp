@@ -1,5 +1,7 @@
 #include "libguide/fit/fitted_series.h"
 
+#include <utility>
+
 #include "libguide/fit/lobe_family.h"
 #include "libguide/fit/width_plan.h"
 
@@ -10,7 +12,8 @@ namespace {
 struct Work {
   struct Place {
     size_t fit;  // of the plan
-    float width;
+    float width = 0;
+    double planning_seconds = 0;  // of the widths, at the first of them
   };
   std::vector<Place> places;
   std::vector<FitRefinement> refinements;
@@ -27,10 +30,12 @@ struct Work {
 
 void add_fit(Work& work, const SceneDescription& scene, size_t index, const PlannedFit& fit,
              const SeriesLimits& limits, const RunControl& control) {
-  if (!fit.width_range) return work.add({index, 0}, fit, fit.bsdf, limits);
-  for (const float width : plan_widths(scene.materials, fit.material, *fit.width_range,
-                                       limits.tolerance, limits.lobe, control))
-    work.add({index, width}, fit, resolve_at_width(scene.materials, fit.material, width), limits);
+  if (!fit.width_range) return work.add({index}, fit, fit.bsdf, limits);
+  WidthPlan plan = plan_widths(scene.materials, fit.material, *fit.width_range, limits.tolerance,
+                               limits.lobe, control);
+  for (const float width : plan.widths)
+    work.add({index, width, std::exchange(plan.seconds, 0)}, fit,
+             resolve_at_width(scene.materials, fit.material, width), limits);
 }
 
 std::vector<FittedSeries> from_families(const SceneDescription& scene, const PlannedFit& fit,
@@ -49,7 +54,8 @@ void collect(const Work& work, std::vector<std::vector<FittedSeries>>& result) {
   for (size_t i = 0; i < work.places.size(); ++i) {
     const Work::Place& place = work.places[i];
     const FitRefinement& refinement = work.refinements[i];
-    result[place.fit].push_back({place.width, refinement.entries(), refinement.seconds(),
+    result[place.fit].push_back({place.width, refinement.entries(),
+                                 place.planning_seconds + refinement.seconds(),
                                  refinement.seconds_per_fit()});
   }
 }

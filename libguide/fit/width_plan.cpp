@@ -37,9 +37,8 @@ FitPlaces width_places(const BsdfsByCount& bsdfs, const Vec3& wo) {
 
 }  // namespace
 
-std::vector<float> plan_widths(std::span<const Material> materials, int material,
-                               const WidthRange& range, float tolerance,
-                               const LobeFitOptions& options, const RunControl& control) {
+WidthPlan plan_widths(std::span<const Material> materials, int material, const WidthRange& range,
+                      float tolerance, const LobeFitOptions& options, const RunControl& control) {
   const BsdfsByCount bsdfs = resolve_series(materials, material, range);
   std::vector<FitRefinement> refinements;
   for (const float degrees : {15.0f, 45.0f, 75.0f}) {
@@ -48,12 +47,15 @@ std::vector<float> plan_widths(std::span<const Material> materials, int material
                              kMost, tolerance, options);
   }
   refine_all(refinements, control);
+  WidthPlan plan;
   size_t count = 0;
-  for (const FitRefinement& r : refinements) count = std::max(count, r.entries().size());
-  std::vector<float> widths;
+  for (const FitRefinement& r : refinements) {
+    count = std::max(count, r.entries().size());
+    plan.seconds += r.seconds();
+  }
   for (size_t i = 0; i < count; ++i)
-    widths.push_back(series_width(range, static_cast<int>(i), static_cast<int>(count)));
-  return widths;
+    plan.widths.push_back(series_width(range, static_cast<int>(i), static_cast<int>(count)));
+  return plan;
 }
 
 }  // namespace waylight

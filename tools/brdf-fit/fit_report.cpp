@@ -9,6 +9,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// A family does not say by which method its entries were made.
+Json by_method(const MaterialFitSummary& m, double value) {
+  return m.from_family ? Json(nullptr) : Json(value);
+}
+
+std::string text_by_method(const MaterialFitSummary& m, double value) {
+  return m.from_family ? "-" : fmt::format("{:.3f}", value);
+}
+
 Json to_json(const MaterialFitSummary& m) {
   return {{"name", m.name},
           {"kind", m.kind},
@@ -17,9 +26,9 @@ Json to_json(const MaterialFitSummary& m) {
           {"entries", m.entries},
           {"mean_components", m.mean_components},
           {"held_out_error", m.held_out_error},
-          {"em_error", m.em_error},
-          {"ceres_error", m.ceres_error},
-          {"ceres_share", m.ceres_share},
+          {"em_error", by_method(m, m.em_error)},
+          {"ceres_error", by_method(m, m.ceres_error)},
+          {"ceres_share", by_method(m, m.ceres_share)},
           {"seconds", m.seconds},
           {"em_seconds", m.em_seconds},
           {"ceres_seconds", m.ceres_seconds},
@@ -59,10 +68,10 @@ void print_table(const ToolRun& run, const BrdfFitSummary& summary, double secon
   run.print(fmt::format("{:28} {:16} {:>7} {:>5} {:>7} {:>7} {:>7} {:>8} {:>8}", "material", "kind",
                         "entries", "comp.", "error", "EM", "Ceres", "CPU ms", "size"));
   for (const MaterialFitSummary& m : summary.materials)
-    run.print(fmt::format("{:28} {:16} {:>7} {:>5.1f} {:>7.3f} {:>7.3f} {:>7.3f} {:>8.1f} {:>8}{}",
+    run.print(fmt::format("{:28} {:16} {:>7} {:>5.1f} {:>7.3f} {:>7} {:>7} {:>8.1f} {:>8}{}",
                           m.name, m.kind, m.entries, m.mean_components, m.held_out_error,
-                          m.em_error, m.ceres_error, 1000 * m.seconds,
-                          format_bytes(double(m.bytes)), remark(m)));
+                          text_by_method(m, m.em_error), text_by_method(m, m.ceres_error),
+                          1000 * m.seconds, format_bytes(double(m.bytes)), remark(m)));
   for (const std::string& name : summary.skipped) run.print("not fitted: " + name);
   print_totals(run, summary, seconds);
 }
