@@ -16,7 +16,7 @@ struct BrdfFitOptions {
   // The error, over a fit's own, that is allowed between the wo of two entries, between two widths
   // of a textured one, and between materials that share entries; 0..2, 0: none but rounding.
   float tolerance = 0.02f;
-  int elevations = 512;   // most entries of a material that depends on the elevation of wo, 1..4096
+  int elevations = 512;   // most entries of a material that depends on the elevation of wo, 2..4096
   int directions = 4096;  // most of one that depends on its azimuth too, 1..65536
   int components = 8;     // most of a mixture, 1..16; more than 8 are merged after the fit
   bool fixed_components = false;  // as many as that, also where fewer do nearly as well

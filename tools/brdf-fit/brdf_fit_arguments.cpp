@@ -12,7 +12,7 @@ void declare(CLI::App& app, BrdfFitArguments& arguments) {
   app.add_option("--tolerance", options.tolerance, "Error allowed between entries")
       ->check(CLI::Range(0.0f, 2.0f));
   app.add_option("--elevations", options.elevations, "Most entries of an isotropic material")
-      ->check(CLI::Range(1, 4096));
+      ->check(CLI::Range(2, 4096));
   app.add_option("--directions", options.directions, "Most entries of an anisotropic material")
       ->check(CLI::Range(1, 65536));
   add_choice(
