@@ -29,7 +29,7 @@ struct FitPlaces {
   std::function<std::vector<ServingEntry>(int i, int n)> serving;
 };
 
-// Fits 2, 4, 8 ... entries. A number suffices once, at the places of the
+// Fits `first`, twice, four times ... as many entries. A number suffices once, at the places of the
 // number before, the error of the entries that serve them is no more than `tolerance` above that of
 // the places' own fits, in the mean. The last number is `most`, reached at once where the tolerance
 // is 0.

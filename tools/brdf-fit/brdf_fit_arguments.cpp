@@ -17,7 +17,7 @@ void declare(CLI::App& app, BrdfFitArguments& arguments) {
       ->check(CLI::Range(1, 65536));
   add_choice(
       app, "--fit", {"best", "em", "ceres"}, [&](size_t i) { options.method = FitMethod(i); },
-      "How mixtures are fitted: EM, EM refined with Ceres, or the better of both");
+      "How mixtures are fitted: the better of both, EM, or EM refined with Ceres");
   app.add_option("--components", options.components,
                  "Most components of a mixture; more than 8 are merged after the fit")
       ->check(CLI::Range(1, 16));
