@@ -127,7 +127,8 @@ void plot_material(const ToolRun& run, const std::string& path,
   const float asked = arguments.elevation * (kPi / 180);
   const Vec3 from(std::sin(asked), 0, std::cos(asked));
   const int row = nearest_entry(fit.layout, from, count);
-  const Vec3 wo = count > 1 ? entry_wo(fit.layout, row, count) : from;
+  const bool any_wo = fit.layout == EntryLayout::elevations && count == 1;
+  const Vec3 wo = any_wo ? from : entry_wo(fit.layout, row, count);
   const BrdfCacheEntry& entry = file.cache.entries[fit.first_entry + row];
   std::vector<DiskPicture> pictures = {picture_of(
       std::span(file.cache.components).subspan(entry.first_component, entry.component_count),
