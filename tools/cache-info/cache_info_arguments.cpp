@@ -17,7 +17,8 @@ void declare_drawing(CLI::App& app, LobePlotArguments& plot) {
   as_input(app.add_option("--truth", plot.truth,
                           "Picture of render --sphere=X,Y,Z that is drawn beside all light there"));
   app.add_option("--elevation", plot.elevation,
-                 "Angle of wo from the normal of a material, in degrees");
+                 "Angle of wo from the normal of a material, in degrees")
+      ->default_str("45");
   app.add_option("--size", plot.size, "Side of one disk, in pixels")->check(CLI::Range(32, 4096));
   add_scene_option(app, plot.scene, "--scene",
                    "Scene whose BSDF is drawn beside the material's fit");

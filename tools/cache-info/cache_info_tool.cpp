@@ -22,8 +22,10 @@ void validate(const CacheInfoArguments& arguments, FileKind kind) {
           "--plot CELL|X,Y,Z|MATERIAL and -o PICTURE belong together");
   require(plot.samples.empty() || kind == FileKind::cache,
           "--samples belongs to the --plot of an illumination cache");
-  require(plot.elevation >= 0 && plot.elevation <= 90,
-          "--elevation must be a number from 0 to 90, not {}", plot.elevation);
+  require(!plot.elevation || kind == FileKind::brdf,
+          "--elevation belongs to the --plot of a BRDF cache");
+  require(!plot.elevation || (*plot.elevation >= 0 && *plot.elevation <= 90),
+          "--elevation must be a number from 0 to 90, not {}", plot.elevation.value_or(0));
   require(plot.truth.empty() || parse_position(plot.target),
           "--truth belongs to the --plot of a place in a medium, X,Y,Z");
   require(plot.scene.path.empty() || kind == FileKind::brdf,

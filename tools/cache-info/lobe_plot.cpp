@@ -124,7 +124,7 @@ void plot_material(const ToolRun& run, const std::string& path,
   const BrdfFile file = read_brdf(path);
   const MaterialFit& fit = find_fit(file.cache, arguments.target);
   const int count = static_cast<int>(fit.entry_count);
-  const float asked = arguments.elevation * (kPi / 180);
+  const float asked = arguments.elevation.value_or(45) * (kPi / 180);
   const Vec3 from(std::sin(asked), 0, std::cos(asked));
   const int row = nearest_entry(fit.layout, from, count);
   const bool any_wo = fit.layout == EntryLayout::elevations && count == 1;
