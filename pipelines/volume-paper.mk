@@ -11,7 +11,7 @@
 #   make -f pipelines/volume-paper.mk clean
 #
 # An interrupted run goes on where it stopped; results are in out/volume-paper, one folder a scene.
-# All of it takes SCENES x METHODS x SEEDS x TIME, 9 hours by default, and the references. The time
+# All of it takes SCENES x METHODS x SEEDS x TIME, 11 hours by default, and the references. The time
 # of training is that of all stages before the render.
 #
 # SCENES           pipelines of this folder; that of a scene made elsewhere needs WAYLIGHT_SCENES
