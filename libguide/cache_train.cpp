@@ -1,5 +1,6 @@
 #include "libguide/cache_train.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -234,7 +235,9 @@ void CacheTrainer::Impl::summarise(CacheTrainSummary& summary) const {
   summary.dropped_direct = tally.dropped_direct + escape_tally_.dropped_direct;
   summary.weights_capped = tally.weights_capped;
   summary.count_cells(cache_);
-  summary.mixtures_refitted = refits_ ? refits_->tree().refitted() : 0;
+  if (refits_)
+    summary.mixtures_refitted =
+        std::ranges::count_if(refits_->tree().cells(), &RefitCell::refitted);
   summary.cells_before_merging = cells_before_merging_;
   summary.bytes_saved = bytes_saved_;
   summary.cells_made = cells_before_merging_ - cells_before_;

@@ -2,10 +2,9 @@
 // The cells of a finished tree of media, each asked by its photons of indirect light, at most
 // kMostPhotons of them drawn at random, where that light comes from.
 
-#include <vector>
-
 #include "libguide/cache/medium_tree.h"
 #include "libguide/cache/photon_sample.h"
+#include "libguide/cache/second_reading.h"
 
 namespace waylight {
 
@@ -19,6 +18,7 @@ class FocusCell {
   // Returns 0: as MediumTrainingCell has it, photons that weighed too much.
   size_t flush(const MediumCellOptions& options);
 
+  using Kept = PlacedDirection;
   static constexpr size_t kMostPhotons = 512;
 
  private:
@@ -26,25 +26,6 @@ class FocusCell {
   PhotonSample<PlacedDirection> photons_{kMostPhotons};
 };
 
-// What BlockTrainer takes for a tree. That which it is made from has to stay where it is.
-class FocusTree {
- public:
-  FocusTree() = default;
-  explicit FocusTree(MediumTree& tree) : tree_(&tree) {
-    for (size_t i = 0; i < tree.size(); ++i) cells_.emplace_back(tree[i]);
-  }
-
-  uint32_t find(const MediumPhoton& photon) const { return tree_->find(photon); }
-  size_t size() const { return cells_.size(); }
-  FocusCell& operator[](size_t i) { return cells_[i]; }
-  void split_full_cells(const MediumTreeOptions&, const MediumCellOptions&, double) {}  // none is
-  size_t bytes() const {                                                                // at most
-    return size() * (sizeof(FocusCell) + FocusCell::kMostPhotons * sizeof(PlacedDirection));
-  }
-
- private:
-  MediumTree* tree_ = nullptr;
-  std::vector<FocusCell> cells_;
-};
+using FocusTree = SecondReading<MediumTree, FocusCell>;
 
 }  // namespace waylight

@@ -1,7 +1,5 @@
 #include "libguide/cache/refit_tree.h"
 
-#include <algorithm>
-
 namespace waylight {
 
 size_t RefitCell::absorb(std::span<const Photon> block, std::span<const uint32_t> indices,
@@ -15,10 +13,6 @@ size_t RefitCell::flush(const CellTrainingOptions& options) {
   refitted_ = cell_->refit(photons_, options);
   photons_ = PhotonSample<WeightedPoint>(0);
   return 0;
-}
-
-size_t RefitTree::refitted() const {
-  return static_cast<size_t>(std::ranges::count_if(cells_, &RefitCell::refitted));
 }
 
 }  // namespace waylight

@@ -2,9 +2,8 @@
 // The cells of a finished tree of surfaces, each fitted again to the photons of the stream that lie
 // in it, at most kMostPhotons of them, drawn at random.
 
-#include <vector>
-
 #include "libguide/cache/photon_sample.h"
+#include "libguide/cache/second_reading.h"
 #include "libguide/cache/training_tree.h"
 
 namespace waylight {
@@ -20,6 +19,7 @@ class RefitCell {
   size_t flush(const CellTrainingOptions& options);
   bool refitted() const { return refitted_; }
 
+  using Kept = WeightedPoint;
   static constexpr size_t kMostPhotons = 512;
 
  private:
@@ -28,26 +28,6 @@ class RefitCell {
   bool refitted_ = false;
 };
 
-// What BlockTrainer takes for a tree. That which it is made from has to stay where it is.
-class RefitTree {
- public:
-  RefitTree() = default;
-  explicit RefitTree(TrainingTree& tree) : tree_(&tree) {
-    for (size_t i = 0; i < tree.size(); ++i) cells_.emplace_back(tree[i]);
-  }
-
-  uint32_t find(const Photon& photon) const { return tree_->find(photon); }
-  size_t size() const { return cells_.size(); }
-  RefitCell& operator[](size_t i) { return cells_[i]; }
-  void split_full_cells(const TreeOptions&, const CellTrainingOptions&, double) {}  // none is
-  size_t refitted() const;
-  size_t bytes() const {  // at most
-    return size() * (sizeof(RefitCell) + RefitCell::kMostPhotons * sizeof(WeightedPoint));
-  }
-
- private:
-  TrainingTree* tree_ = nullptr;
-  std::vector<RefitCell> cells_;
-};
+using RefitTree = SecondReading<TrainingTree, RefitCell>;
 
 }  // namespace waylight

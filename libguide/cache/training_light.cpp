@@ -43,11 +43,10 @@ size_t TrainingLight::update(const LobeOptions& options) {
   return learn(std::span(batch).first(photons.size()), options);
 }
 
-bool TrainingLight::focus(const PhotonSample<PlacedDirection>& photons, const VmfPrior& prior,
+void TrainingLight::focus(const PhotonSample<PlacedDirection>& photons, const VmfPrior& prior,
                           float far) {
-  if (photons.kept().size() < kLeastPhotons) return false;
+  if (photons.kept().size() < kLeastPhotons) return;
   focused_ = fit_focused_lobes(photons.kept(), components(), prior, far);
-  return !focused_.empty();
 }
 
 }  // namespace waylight

@@ -44,7 +44,7 @@ class TrainingLight : public OnlineMixture<VmfLobes> {
   void begin_with_flux(double flux) { training_.flux = flux; }
 
   // Lobes that point to places, by photons that are all at hand: see fit_focused_lobes().
-  bool focus(const PhotonSample<PlacedDirection>& photons, const VmfPrior& prior, float far);
+  void focus(const PhotonSample<PlacedDirection>& photons, const VmfPrior& prior, float far);
   std::span<const FocusedLobe> focused() const { return focused_; }
   void set_focused(std::span<const FocusedLobe> lobes) {
     focused_.assign(lobes.begin(), lobes.end());

@@ -40,6 +40,16 @@ std::vector<WeightedDirection> directions_of(std::span<const PlacedDirection> ph
 FocusedEm::FocusedEm(std::span<const PlacedDirection> photons, std::span<const VmfComponent> start,
                      const VmfPrior& prior)
     : prior_(prior), count_(static_cast<int>(start.size())) {
+  take(photons);
+  for (int k = 0; k < count_; ++k) {
+    weight_[k] = start[k].weight;
+    kappa_[k] = std::min(start[k].kappa, kMaxKappa);
+    mean_.x[k] = start[k].mean.x(), mean_.y[k] = start[k].mean.y(), mean_.z[k] = start[k].mean.z();
+  }
+}
+
+// Places are kept from their mean: lanes are floats.
+void FocusedEm::take(std::span<const PlacedDirection> photons) {
   const std::vector<WeightedDirection> directions = directions_of(photons);
   const BatchWeights weights = scan_weights(directions, kMaxTrainingWeight);
   samples_ = weights.effective;
@@ -56,11 +66,6 @@ FocusedEm::FocusedEm(std::span<const PlacedDirection> photons, std::span<const V
   }
   spread_ = std::sqrt(3 * spread2);
   shares_.resize(points_.size());
-  for (int k = 0; k < count_; ++k) {
-    weight_[k] = start[k].weight;
-    kappa_[k] = std::min(start[k].kappa, kMaxKappa);
-    mean_.x[k] = start[k].mean.x(), mean_.y[k] = start[k].mean.y(), mean_.z[k] = start[k].mean.z();
-  }
 }
 
 Lanes FocusedEm::densities(const Point& point) const {

@@ -38,6 +38,7 @@ class FocusedEm {
     float weight;              // they sum to one
   };
 
+  void take(std::span<const PlacedDirection> photons);
   Lanes densities(const Point& point) const;
   void share_out();
   void move_centres();
