@@ -2,11 +2,7 @@
 # What pipelines would run, by `make -n`, without the tools.
 #   tests/pipelines/commands.sh
 set -uo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
-export LC_ALL=C
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
+source "$(dirname "$0")/folder.sh"
 cp -r "$root/pipelines" "$work"
 cd "$work" || exit 1
 mkdir bin

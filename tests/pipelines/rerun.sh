@@ -3,12 +3,8 @@
 #   tests/pipelines/rerun.sh BIN
 # With WAYLIGHT_SCENES, a folder of scenes made elsewhere, the pipelines of those scenes run too.
 set -uo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
+source "$(dirname "$0")/folder.sh"
 bin=$(cd "${1:?usage: rerun.sh BIN}" && pwd)
-export LC_ALL=C
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
 cp -r "$root/pipelines" "$work"
 cd "$work" || exit 1
 

@@ -3,14 +3,12 @@
 #   tests/pipelines/stability.sh BIN             compares
 #   tests/pipelines/stability.sh --update BIN    redoes it
 set -uo pipefail
+source "$(dirname "$0")/folder.sh"
 here=$(cd "$(dirname "$0")" && pwd)
 expected=$here/stability.txt
 if [[ ${1:-} == --update ]]; then expected=''; shift; fi
 bin=$(cd "${1:?usage: stability.sh [--update] BIN}" && pwd)
 export LC_ALL=C.UTF-8
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
 cd "$here/../.." || exit 1
 make --no-print-directory -f pipelines/stability.mk fast -j2 OUT="$work" BIN="$bin" > "$work/log" 2>&1
 status=$?

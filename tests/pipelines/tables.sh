@@ -2,12 +2,8 @@
 # Tables of comparisons, from figures that are known.
 #   tests/pipelines/tables.sh
 set -uo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
+source "$(dirname "$0")/folder.sh"
 tables=$root/pipelines/tables
-export LC_ALL=C
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
 cd "$work" || exit 1
 
 failures=0

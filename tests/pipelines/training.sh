@@ -3,11 +3,7 @@
 # stand-ins; FAILING is a pattern of the commands that fail.
 #   tests/pipelines/training.sh
 set -uo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
-export LC_ALL=C
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
+source "$(dirname "$0")/folder.sh"
 cd "$work" || exit 1
 mkdir bin
 

@@ -4,11 +4,8 @@
 # commands that crash, as "*tool*what it is called with*".
 #   tests/pipelines/verdicts.sh
 set -uo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
+source "$(dirname "$0")/folder.sh"
 export LC_ALL=C.UTF-8
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
 cp -r "$root/pipelines" "$work"
 cd "$work" || exit 1
 mkdir -p bin

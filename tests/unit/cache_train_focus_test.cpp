@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/fog_photons.h"
 #include "libguide/base/parallel.h"
 #include "libguide/base/sampler.h"
 #include "libguide/cache/guide_cache_view.h"
@@ -13,23 +14,15 @@
 namespace waylight {
 namespace {
 
+const Bounds kBox = {Vec3::Constant(-1), Vec3::Constant(1)};
 const Vec3 kLamp(0, 1.5f, 0);  // above a box of fog of two units a side
-
-PhotonStreamInfo fog_info() {
-  PhotonStreamInfo info;
-  info.scene_bounds = {Vec3::Constant(-1), Vec3::Constant(1)};
-  info.emitted = 1000;
-  info.media = true;
-  return info;
-}
 
 // Photons anywhere in the box, of which every other one comes from the lamp, by way of its glass.
 std::vector<MediumPhoton> light_of_a_lamp(int count, uint64_t seed = 1) {
   std::vector<MediumPhoton> photons;
   for (int i = 0; i < count; ++i) {
     Sampler sampler(seed, 0, i);
-    const Vec2 u = sampler.next_2d();
-    const Vec3 p(2 * u.x() - 1, 2 * u.y() - 1, 2 * sampler.next() - 1);
+    const Vec3 p = testing::place_in(kBox, sampler);
     const Vec3 w = square_to_sphere(sampler.next_2d());
     photons.push_back(
         {p, i % 2 ? (kLamp + 0.05f * w - p).normalized() : w, Color::Constant(1.0f / count), 1});
@@ -41,7 +34,7 @@ GuideCache train(const std::vector<MediumPhoton>& photons, bool again, GuideCach
                  CacheTrainSummary* summary = nullptr) {
   CacheTrainOptions options;
   options.medium_photons_per_cell = 1000;
-  CacheTrainer trainer(options, fog_info(), std::move(previous));
+  CacheTrainer trainer(options, testing::fog_info(1000, kBox), std::move(previous));
   trainer.consume(photons);
   if (again) trainer.refit(photons);
   GuideCache cache = trainer.finish(summary);

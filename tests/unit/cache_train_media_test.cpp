@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "common/fog_photons.h"
 #include "libguide/base/error.h"
 #include "libguide/base/parallel.h"
 #include "libguide/base/sampler.h"
@@ -21,11 +22,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 const Bounds kBox = {Vec3(-1, 2, 0), Vec3(1, 3, 0.5f)};  // of volume 1
 
 PhotonStreamInfo fog_info(uint64_t emitted, const Bounds& bounds = kBox) {
-  PhotonStreamInfo info;
-  info.scene_bounds = bounds;
-  info.emitted = emitted;
-  info.media = true;
-  return info;
+  return testing::fog_info(emitted, bounds);
 }
 
 struct Light {
@@ -39,11 +36,9 @@ std::vector<MediumPhoton> even_light(int count, const Light& light, uint64_t see
   std::vector<MediumPhoton> photons;
   for (int i = 0; i < count; ++i) {
     Sampler sampler(seed, 0, i);
-    const Vec2 u = sampler.next_2d();
-    const Vec3 place(u.x(), u.y(), sampler.next());
-    photons.push_back({kBox.min + place.cwiseProduct(kBox.max - kBox.min),
-                       light.direction(sampler.next_2d()), Color::Constant(light.fluence / count),
-                       light.path_depth});
+    const Vec3 place = testing::place_in(kBox, sampler);
+    photons.push_back({place, light.direction(sampler.next_2d()),
+                       Color::Constant(light.fluence / count), light.path_depth});
   }
   return photons;
 }

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "common/fog_photons.h"
 #include "libguide/base/parallel.h"
 #include "libguide/base/sampler.h"
 #include "libguide/cache/guide_cache_view.h"
@@ -41,10 +42,9 @@ std::vector<MediumPhoton> fog_photons(const Light& light, uint64_t seed = 1) {
   std::vector<MediumPhoton> photons;
   for (uint32_t i = 0; i < kPhotons; ++i) {
     Sampler sampler(seed, 0, i);
-    const Vec2 u = sampler.next_2d();
-    const Vec3 place(u.x(), u.y(), sampler.next());
-    photons.push_back({kBox.min + place.cwiseProduct(kBox.max - kBox.min),
-                       square_to_sphere(sampler.next_2d()), Color::Constant(1.0f / kPhotons), 1});
+    const Vec3 place = testing::place_in(kBox, sampler);
+    photons.push_back(
+        {place, square_to_sphere(sampler.next_2d()), Color::Constant(1.0f / kPhotons), 1});
     light(photons.back());
   }
   return photons;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/fog_photons.h"
 #include "libguide/base/sampler.h"
 #include "libguide/cache/guide_cache_view.h"
 #include "libguide/cache/training_check.h"
@@ -14,11 +15,7 @@ namespace {
 constexpr uint32_t kPhotons = 20'000;
 
 PhotonStreamInfo box_info(const Bounds& bounds = {Vec3(-1, -1, -1), Vec3(1, 1, 1)}) {
-  PhotonStreamInfo info;
-  info.scene_bounds = bounds;
-  info.emitted = kPhotons;
-  info.media = true;
-  return info;
+  return testing::fog_info(kPhotons, bounds);
 }
 
 // On the floor z = 0, for x from `least` to 1, and evenly lit.
@@ -39,10 +36,8 @@ std::vector<MediumPhoton> fog_photons(const Bounds& box, uint64_t seed = 1) {
   std::vector<MediumPhoton> photons;
   for (uint32_t i = 0; i < kPhotons; ++i) {
     Sampler sampler(seed, 0, i);
-    const Vec2 u = sampler.next_2d();
-    const Vec3 place(u.x(), u.y(), sampler.next());
-    photons.push_back({box.min + place.cwiseProduct(box.max - box.min),
-                       square_to_sphere(sampler.next_2d()), Color::Ones(), i % 2});
+    const Vec3 place = testing::place_in(box, sampler);
+    photons.push_back({place, square_to_sphere(sampler.next_2d()), Color::Ones(), i % 2});
   }
   return photons;
 }
