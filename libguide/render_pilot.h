@@ -13,11 +13,12 @@ namespace waylight {
 // what has the least variance times cost. It begins with everything guided and asks what becomes
 // better without, or with something else: resampling, light without product, standard directions
 // and distances in media, guided distances in grids, roulette by throughput, or guided in scenes
-// with grids, where it begins by throughput. What does by three standard errors of the comparison
-// is taken, the best of each decision, all together; at last comes plain path tracing, if it is
-// better than any of these, by three standard errors where the comparison is vague, and wherever it
-// is not surely worse if hardly a scattering has a guide. Only what the options leave open is
-// asked. The choices of the cells are left in `guiding`.
+// with grids, where it begins by throughput. What does by three standard errors of the comparison,
+// and a tenth where it guides less, is taken, the best of each decision, all together; at last
+// comes plain path tracing, if it is better than any of these, unless the comparison is known to
+// worse than a third; or wherever it is not surely worse, if hardly a scattering has a guide or the
+// cells are few. Only what the options leave open is asked. The choices of the cells are left in
+// `guiding`.
 PathTracerOptions choose_method(const Scene& scene, const SensorDescription& sensor,
                                 const PathTracer& tracer, GuidingCaches& guiding,
                                 const RenderOptions& options, const std::function<bool()>& stop,

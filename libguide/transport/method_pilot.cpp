@@ -128,7 +128,8 @@ class ArmFigures {
   }
 
   void report(std::vector<PilotArm>& arms) {
-    hold_variances();
+    for (size_t i = 0; i < arms.size(); ++i)
+      if (arms[i].held) hold_variances(arms_[i]);
     for (size_t i = 0; i < arms.size(); ++i) {
       arms[i].figures.variance = variance(i);
       arms[i].figures.cost = mean(arms_[i].costs);
@@ -142,15 +143,6 @@ class ArmFigures {
     for (const double v : values) sum += v;
     return sum / double(values.size());
   }
-  // No tile counts for more than a 20th of the variance of its arm, or twice the mean where there
-  // are few: a single bright path would decide, and by chance. Many still count for what they are.
-  void hold_variances() {
-    for (Arm& arm : arms_) {
-      const double tiles = double(arm.variances.size());
-      const double most = mean(arm.variances) * std::max(0.05 * tiles, 2.0);
-      for (double& v : arm.variances) v = std::min(v, most);
-    }
-  }
   // Mean of the places, relative to their value, and variance of a path.
   struct Unit {
     double mean = 0, variance = 0;
@@ -160,6 +152,13 @@ class ArmFigures {
     Missed missed_by_tile, missed_by_turn;
   };
 
+  // No tile counts for more than a 20th of the variance of its arm, or twice the mean where there
+  // are few: a single bright path would decide, and by chance. Many still count for what they are.
+  static void hold_variances(Arm& arm) {
+    const double tiles = double(arm.variances.size());
+    const double most = mean(arm.variances) * std::max(0.05 * tiles, 2.0);
+    for (double& v : arm.variances) v = std::min(v, most);
+  }
   void compare(const std::vector<Unit>& units, double paths, Missed Arm::*missed) {
     for (size_t i = 1; i < units.size(); ++i)
       (arms_[i].*missed).add(units[i].mean - units[0].mean, paths, units[0].variance);

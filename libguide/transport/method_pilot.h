@@ -13,6 +13,7 @@ namespace waylight {
 struct PilotArm {
   MethodFigures figures;
   PathTracerOptions options;
+  bool held = true;  // whether its single bright paths are
 };
 
 struct MethodPilotOptions {
@@ -22,11 +23,12 @@ struct MethodPilotOptions {
 };
 
 // Fills in the figures of all arms, tracing by their options, with the same places of the frame for
-// each. The variance of an arm is that between two paths of a pixel, with single bright paths held,
-// and at least what its difference from the first arm tells: paths that are found once in N have at
-// least N times their part of the mean, squared, as second moment, also while none has been found.
-// Where the paths do not reach for one look of all arms over the frame, the last ones are dropped;
-// false where they do not reach for two. Equal at any thread count unless timed or stopped.
+// each. The variance of an arm is that between two paths of a pixel, with single bright paths held
+// where it is said, and at least what its difference from the first arm tells: paths that are found
+// once in N have at least N times their part of the mean, squared, as second moment, also while
+// none has been found. Where the paths do not reach for one look of all arms over the frame, the
+// last ones are dropped; false where they do not reach for two. Equal at any thread count unless
+// timed or stopped.
 bool measure(const PathTracer& tracer, std::vector<PilotArm>& arms, const PilotFrame& frame,
              const MethodPilotOptions& options, const std::function<bool()>& stop);
 

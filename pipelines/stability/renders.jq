@@ -51,12 +51,14 @@ def harmless($h): if $h == null then "-"
 
 $of[0] as $m | $base[0] as $b
 | (if $timed == 0 or $b == null or $method == "bsdf" then null else harm($m; $b) end) as $h
+| (if $timed == 0 then null else cost_of($m) end) as $cost
 | {unbiased: unbiased($m), finite: finite($m), bounded: bounded($m), harmless: harmless($h)}
 | {case: $case, row: $row, set: $set, method: $method,
    verdict: ([.finite, .bounded, .unbiased, .harmless] | map(select(. != "pass" and . != "-"))
              | if . == [] then "pass" else join("; ") end)} + .
 + {cost_ratio: ($h.ratio // "" | if . == "" then . else digits(3) end),
    cost_error: ($h.error // "" | if . == "" then . else digits(3) end),
+   cost: $cost.mean, cost_variance: $cost.relative,
    tiles: $m[0].z.tiles.count, beyond3: $m[0].z.tiles.beyond3,
    allowed3: (3 * most_by_chance($m[0].z.tiles.count / 3 | floor; 0.0027)),
    image_z: ($m[1].z.tiles.largest | digits(2)), mean_ratio: ($m[0].mean_ratio // 1 | digits(4)),

@@ -26,6 +26,8 @@ END {
     mse[key] += figure[run, "mse"]
     relmse[key] += figure[run, "relmse"]
     trimmed[key] += figure[run, "relmse_trimmed"]
+    relmse_squares[key] += figure[run, "relmse"] ^ 2
+    trimmed_squares[key] += figure[run, "relmse_trimmed"] ^ 2
   }
 }
 # Mean relMSE as it would be with the time of preprocessing taken from that of rendering.

@@ -39,6 +39,20 @@ expect "an error below the noise" 'bought    auto: below the noise in 4 s (1/10 
 figures auto
 expect "auto below the noise" '| box | 4 | below the noise | below the noise | bsdf | 0.100 | 0.100 | bsdf |'
 
+# Relative standard errors: 0 of bsdf, a half of auto over two seeds, a third of product.
+rows box,bsdf,1,4,0,1,1,8,8 box,bsdf,2,4,0,1,1,8,8 box,product,1,4,0,1,1,2,2 box,product,2,4,0,1,1,4,4 \
+  box,auto,1,4,0,1,1,2,6 box,auto,2,4,0,1,1,6,6
+figures auto
+expect "errors of ratios" '| box | 4 | 0.500 ± 0.250 | 1.333 ± 0.801 | product | 0.750 ± 0.000 | 2.000 ± 0.667 | product |'
+
+# Three standard errors are needed to break a promise, and a case without light has none.
+row() { printf '{"case": "%s", "method": "%s", "cost": %s, "cost_variance": %s}' "$@"; }
+{ row dark bsdf 0 0; row dark auto 0 0; row room bsdf 4 0; row room product 1 0; row room auto 2 0.0625
+  row wall bsdf 1 0; row wall auto 2 0.01; } | jq -s . | jq -rf "$root/pipelines/stability/auto.jq" > out
+expect "auto beyond chance" '| wall | 2 ± 0.2 * | 2 ± 0.2 * | bsdf |'
+expect "auto within chance" '| room | 0.5 ± 0.13 | 2 ± 0.5 | product |'
+grep -q dark out && { echo "FAIL a case without light has a cost"; ((++failures)); }
+
 # The summary is of the stages of its run, whatever others left.
 traced() { printf '{"stored": %s, "emitted": 9, "paths": 0, "seconds": 1}' "$1" > "$2.json"; }
 trained() { printf '{"cells": %s, "mean_effective_samples": 3, "mean_components": 2, "seconds": 1}' "$1" > "$2.json"; }

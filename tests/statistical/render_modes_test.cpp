@@ -105,6 +105,15 @@ TEST_F(SlowRenderModes, ModeAutoGuidesNothingWhereHardlyAScatteringHasAGuide) {
   EXPECT_EQ(all.decision.method, "guided");
 }
 
+TEST_F(SlowRenderModes, ModeAutoGuidesNothingAtAGlanceByFewCells) {
+  const Trained coarse = train(*scene, 2'000);
+  ASSERT_LT(coarse.guide.cells.size(), 50u);
+  RenderSummary glance;
+  render_mode(*scene, coarse, RenderMode::automatic, 16, 5, &glance);
+  EXPECT_TRUE(glance.decision.compared.empty());
+  EXPECT_EQ(glance.decision.method, "bsdf");
+}
+
 TEST_F(SlowRenderModes, ResamplingHasTheMeanOfPathTracingWithFewCandidatesAndMany) {
   for (const int candidates : {1, 2, 5}) {
     RenderOptions options;
