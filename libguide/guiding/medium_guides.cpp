@@ -2,9 +2,21 @@
 
 #include "libguide/base/parallel.h"
 #include "libguide/cache/guide_cache_view.h"
+#include "libguide/directional/vmf_product.h"
 #include "libguide/medium/phase.h"
 
 namespace waylight {
+namespace {
+
+// int p^2 dw of the density.
+float concentration(const VmfMixture& p) { return VmfProduct(p, p).z(); }
+
+float narrowness(const PhaseLobes& phase, const VmfMixture& light) {
+  const float of_phase = concentration(phase.about(Vec3::UnitZ()));
+  return of_phase / (of_phase + concentration(light));
+}
+
+}  // namespace
 
 MediumGuide::MediumGuide(const MediumCacheView& cache, uint32_t index, const PhaseLobes& phase)
     : indirect_(cache.lobes(cache.cells[index].indirect)),
@@ -16,6 +28,7 @@ MediumGuide::MediumGuide(const MediumCacheView& cache, uint32_t index, const Pha
   const float samples = cell.indirect.effective_samples;
   known_ = indirect_.count() > 0 && indirect_fluence_ > 0 && samples >= kMinEffectiveSamples;
   trust_ = samples / (samples + kHalfTrustSamples);
+  phase_narrowness_ = narrowness(phase, indirect_);
   if (const auto lobes = cache.focused(index); !lobes.empty()) focused_.emplace(lobes);
 }
 

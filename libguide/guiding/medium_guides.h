@@ -59,6 +59,9 @@ class MediumGuide {
   const std::optional<FocusedMixture>& focused() const { return focused_; }
   bool known() const { return known_; }   // whether the indirect light is
   float trust() const { return trust_; }  // see guiding_trust()
+  // How narrow the phase function is beside the indirect light, in [0, 1]: the part of int f^2 dw
+  // in its sum with int l^2 dw.
+  float phase_narrowness() const { return phase_narrowness_; }
 
   // L(x, w), radiance that comes from direction w: indirect light and, where asked for, that
   // straight from emitters.
@@ -88,7 +91,7 @@ class MediumGuide {
   VmfConvolution scattered_indirect_;
   float indirect_fluence_, direct_fluence_;
   bool known_;
-  float trust_;
+  float trust_, phase_narrowness_;
 };
 
 class MediumGuides {

@@ -14,8 +14,11 @@ PhaseSampler::PhaseSampler(const PhaseFunction& phase, const Vec3& wo, const Vec
 }
 
 void PhaseSampler::prepare(const PhaseOptions& options) {
-  phase_share_ = 1 - guide_->trust() * (1 - options.phase_share);
-  if (options.guide != PhaseGuide::product) return;
+  const bool mixes = options.guide == PhaseGuide::mixture;
+  const float share =
+      mixes ? std::max(options.phase_share, guide_->phase_narrowness()) : options.phase_share;
+  phase_share_ = 1 - guide_->trust() * (1 - share);
+  if (mixes) return;
   about_forward_ = lobes_->about(forward_);
   product_.emplace(about_forward_, light());
   if (!product_->valid()) phase_share_ = 1;

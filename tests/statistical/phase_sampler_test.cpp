@@ -31,6 +31,17 @@ void expect_valid_densities(const FlightFixture& fixture, const MediumGuide& gui
   }
 }
 
+// Of vertices guided by a mixture, half of it where it can be, over the trust in the cell.
+float guide_share_of_mixture(float g) {
+  const FlightFixture fixture({"g", homogeneous(Color::Ones(), Color::Ones(), g)});
+  const MediumCache cache = testing::cells_along_x();
+  const MediumGuides guides(MediumCacheView(cache), fixture.media);
+  const MediumGuide& guide = guides.guide(0, 1);
+  const PhaseSampler phase(fixture.medium.phase(), Vec3::UnitZ(), Vec3::Zero(), &guide,
+                           &guides.phase(0), {PhaseGuide::mixture, 0.5f});
+  return (1 - phase.bsdf_share()) / guide.trust();
+}
+
 // Those of the cell where light comes towards -x, by itself or from places near and far.
 void expect_valid_densities(float g, bool places) {
   const std::string name = "g " + std::to_string(g) + (places ? " places" : "");
@@ -59,6 +70,12 @@ TEST(PhaseSampler, GridsHaveAtLeastHalfOfThePhaseFunction) {
   EXPECT_EQ(PhaseOptions{PhaseGuide::product}.for_medium(true).phase_share, 0.25f);
   EXPECT_EQ(PhaseOptions{PhaseGuide::product}.for_medium(false).phase_share, 0.5f);
   EXPECT_EQ((PhaseOptions{PhaseGuide::mixture, 0.75f}.for_medium(false).phase_share), 0.75f);
+}
+
+TEST(PhaseSampler, MixturesLeaveNarrowPhaseFunctionsToThemselves) {
+  EXPECT_FLOAT_EQ(guide_share_of_mixture(0), 0.5f);
+  EXPECT_LT(guide_share_of_mixture(-0.99f), 0.02f);
+  EXPECT_LT(guide_share_of_mixture(0.99f), 0.02f);
 }
 
 }  // namespace
