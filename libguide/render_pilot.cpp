@@ -27,9 +27,14 @@ constexpr double kVague = 0.35;
 // a thin wall 13 %; where guiding pays, it is at least 40 %.
 constexpr double kRarelyGuided = 0.25;
 // Nor where there are fewer cells: they are so large that none knows the light of its places. In a
-// room and in a lit bulb 1 to 18 cells cost 1.2 to 2.2 times path tracing, 95 cells 0.6.
-constexpr size_t kFewCells = 50;
-constexpr int kProbePaths = 128;
+// room and in a lit bulb 1 to 18 cells cost 1.2 to 2.2 times path tracing, 95 cells 0.6; in sparse
+// jewelry 43 cells 0.24.
+constexpr size_t kFewCells = 30;
+// Where more scatterings than this are in grids, roulette is by throughput at first: guided it goes
+// by one value of light for the thick and the thin parts of a cell, and on two clouds takes half as
+// long again to the same error.
+constexpr double kMostlyInGrids = 0.5;
+constexpr int kGlancePaths = 128;
 
 enum class Decision { surfaces, directions, distances, roulette };
 
@@ -73,23 +78,27 @@ bool has_media(const Scene& scene, bool homogeneous) {
   return false;
 }
 
-// In grids guided roulette goes by one value of light for the thick and the thin parts of a cell;
-// on two clouds it takes half as long again to the same error.
-bool begins_by_throughput(const Scene& scene, const GuidingCaches& caches,
-                          const RenderOptions& options) {
-  return options.roulette == RouletteMode::automatic && !caches.media().empty() &&
-         has_media(scene, false);
-}
+// Smooth scatterings of a few paths.
+struct Glance {
+  uint64_t scatterings = 0, guided = 0, in_grids = 0;
 
-// What the options leave open, and the caches make possible. A short pilot gets to the first of
-// these only.
+  double guided_share() const { return scatterings > 0 ? double(guided) / double(scatterings) : 1; }
+  double share_in_grids() const {
+    return scatterings > 0 ? double(in_grids) / double(scatterings) : 0;
+  }
+};
+
+// What the options leave open, and the caches make possible, to change in `everything`. A short
+// pilot gets to the first of these only.
 std::vector<Alternative> alternatives(const Scene& scene, const GuidingCaches& caches,
-                                      const RenderOptions& options, const AutoDecision& cells) {
+                                      const RenderOptions& options,
+                                      const PathTracerOptions& everything,
+                                      const AutoDecision& cells) {
   const bool chosen = cells.cells_bsdf + cells.cells_illumination + cells.cells_product > 0;
   const bool may_use_product = caches.has_fits() && (cells.cells_product > 0 || !chosen);
   std::vector<Alternative> open;
   if (options.roulette == RouletteMode::automatic)
-    open.push_back(begins_by_throughput(scene, caches, options) ? kGuidedRoulette : kRoulette);
+    open.push_back(everything.roulette == Roulette::throughput ? kGuidedRoulette : kRoulette);
   if (caches.guided()) open.push_back(kResampling);
   if (caches.guided() && may_use_product) open.push_back(kLight);
   if (caches.media().empty()) return open;
@@ -129,20 +138,21 @@ class MethodChoice {
       max_paths_ = static_cast<uint64_t>(std::min(double(kMaxPaths), kPilotShare * paths));
   }
 
-  // Of smooth scatterings that have a guide, from a few paths all over the frame; 1 where these
-  // would be more than a pilot may take.
-  double guided_share(const PathTracerOptions& tracing) const {
-    if (max_paths_ < kProbePaths) return 1;
+  // At a few paths all over the frame; at none where these would be more than a pilot may take.
+  Glance glance(const PathTracerOptions& tracing) const {
+    Glance seen;
+    if (max_paths_ < kGlancePaths) return seen;
     const PathTracer tracer = tracer_.with(tracing);
-    uint64_t scatterings = 0, guided = 0;
-    for (int i = 0; i < kProbePaths; ++i) {
-      const int place = static_cast<int>(int64_t{i} * frame_.places() / kProbePaths);
+    for (int i = 0; i < kGlancePaths; ++i) {
+      const int place = static_cast<int>(int64_t{i} * frame_.places() / kGlancePaths);
       Sampler sampler = frame_.sampler(place, 0, 0);
       const Ray ray = frame_.ray(place, 0, sampler);
       const PathRecord path = tracer.trace(ray, sampler, {});
-      scatterings += path.scatterings, guided += path.guided;
+      seen.scatterings += path.scatterings;
+      seen.guided += path.guided;
+      seen.in_grids += path.in_grids;
     }
-    return scatterings > 0 ? double(guided) / double(scatterings) : 1;
+    return seen;
   }
 
   std::vector<CellChoice> learn(PathTracerOptions tracing, const GuidingCaches& caches) const {
@@ -254,17 +264,21 @@ PathTracerOptions choose_method(const Scene& scene, const SensorDescription& sen
     everything.directions.guide = DirectionGuide::illumination;
     everything.directions.bsdf_share = default_share(RenderMode::illumination);
   }
-  if (begins_by_throughput(scene, guiding, options)) kRoulette.apply(everything);
   const MethodChoice pilot(options, sensor, tracer, stop);
+  const Glance seen = pilot.glance(everything);
+  if (options.roulette == RouletteMode::automatic && !guiding.media().empty() &&
+      seen.share_in_grids() > kMostlyInGrids)
+    kRoulette.apply(everything);
   const bool doubtful = guiding.media().empty() && (guiding.guide().cells.size() < kFewCells ||
-                                                    pilot.guided_share(everything) < kRarelyGuided);
+                                                    seen.guided_share() < kRarelyGuided);
   std::vector<CellChoice> choices;
   if (guiding.guided()) choices = pilot.learn(everything, guiding);
   count_cells(choices, decision);
   guiding.learned(std::move(choices));
   everything.directions.learned = true;
 
-  const std::vector<Alternative> open = alternatives(scene, guiding, options, *decision);
+  const std::vector<Alternative> open =
+      alternatives(scene, guiding, options, everything, *decision);
   std::vector<PilotArm> arms = {{{"guided"}, everything},
                                 {{"bsdf"}, plain(options, everything), false}};
   for (const Alternative& change : open) arms.push_back(arm_of(change, everything));

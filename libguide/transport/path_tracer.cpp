@@ -248,6 +248,7 @@ bool PathTracer::scatter(Walk& walk, State& state, const At& at,
   if (directions.has_smooth()) {
     ++walk.record.scatterings;
     walk.record.guided += directions.guided();
+    walk.record.in_grids += in_grid(at);
     walk.record.bsdf_share += directions.bsdf_share();
   }
   if (!next) return false;

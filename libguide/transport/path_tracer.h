@@ -66,6 +66,7 @@ struct PathRecord {
   uint32_t copies = 0;       // that splitting added
   uint32_t scatterings = 0;  // smooth ones
   uint32_t guided = 0;       // smooth ones that had a guide
+  uint32_t in_grids = 0;     // smooth ones, in heterogeneous media
   float bsdf_share = 0;      // sum of the shares of BSDF sampling at smooth ones
   uint32_t rays = 0;
   uint32_t guided_flights = 0;  // through media, by other than the standard method

@@ -25,6 +25,9 @@ inline int medium_after(const MediumPoint& /*at*/, const Vec3& /*wi*/, int curre
   return current;
 }
 
+inline bool in_grid(const SurfacePoint& /*at*/) { return false; }
+inline bool in_grid(const MediumPoint& at) { return !at.medium->homogeneous(); }
+
 // Where a flight along `ray` scattered. crossed: length of the edge before the ray's origin.
 inline MediumPoint medium_point(const MediumTracker& medium, int index, const Ray& ray,
                                 const Flight& flight, float crossed) {

@@ -130,5 +130,36 @@ TEST(SlowMediaModes, ProductSplittingAndSurfacesTogetherAreUnbiased) {
   }
 }
 
+// The room with a gap, and thin smoke in a corner of it.
+SceneDescription smoky_gap_box() {
+  SceneDescription scene = testing::gap_box(12, 8);
+  scene.media.push_back(testing::cloud(testing::lumpy_grid(), 0.3f));
+  const uint32_t smoke = testing::add_shape(scene, testing::box({0, -0.9f, 0}, {0.9f, 0, 0.9f}),
+                                            testing::add_material(scene, "null", NullMaterial{}));
+  scene.shapes[smoke].interior_medium = 0;
+  scene.integrator.max_depth = 12;
+  return scene;
+}
+
+// The first change that mode auto tried, after everything guided and nothing.
+std::string first_change_of_auto(SceneDescription description) {
+  const Scene scene(std::move(description));
+  const Trained trained = train(scene, 100'000);
+  RenderOptions options;
+  options.mode = RenderMode::automatic;
+  options.spp = 3000;
+  RenderSummary summary;
+  render(scene, trained.caches(), options, &summary, {});
+  return summary.decision.compared.size() > 2 ? summary.decision.compared[2].name : "";
+}
+
+TEST(SlowMediaModes, ModeAutoBeginsWithRouletteByThroughputWhereScatteringsAreInGrids) {
+  EXPECT_EQ(first_change_of_auto(small_cloud()), "guided roulette");
+}
+
+TEST(SlowMediaModes, ModeAutoBeginsWithGuidedRouletteWhereScatteringsAreOnSurfaces) {
+  EXPECT_EQ(first_change_of_auto(smoky_gap_box()), "roulette by throughput");
+}
+
 }  // namespace
 }  // namespace waylight

@@ -107,7 +107,7 @@ TEST_F(SlowRenderModes, ModeAutoGuidesNothingWhereHardlyAScatteringHasAGuide) {
 
 TEST_F(SlowRenderModes, ModeAutoGuidesNothingAtAGlanceByFewCells) {
   const Trained coarse = train(*scene, 2'000);
-  ASSERT_LT(coarse.guide.cells.size(), 50u);
+  ASSERT_LT(coarse.guide.cells.size(), 30u);
   RenderSummary glance;
   render_mode(*scene, coarse, RenderMode::automatic, 16, 5, &glance);
   EXPECT_TRUE(glance.decision.compared.empty());
