@@ -178,7 +178,8 @@ render_rules_of = $(call render_rule,$(1),$(2),$(call mode_of,$(1)),$(call needs
 $(foreach m,$(METHODS),$(eval $(call stamp,render-$(m),$(call mode_of,$(m)) $(flags_$(m)))) \
   $(foreach s,$(SEEDS),$(eval $(call render_rules_of,$(m),$(s)))))
 
-renders := $(foreach m,$(METHODS),$(foreach s,$(SEEDS),$(call images_of,$(m),$(s))))
+# Seed by seed, so that what else the machine does falls on all methods alike.
+renders := $(foreach s,$(SEEDS),$(foreach m,$(METHODS),$(call images_of,$(m),$(s))))
 figures := $(renders:=.csv)
 images: $(renders:=.exr) $(renders:=.json)
 
