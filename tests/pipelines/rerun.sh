@@ -96,6 +96,10 @@ renders "a seed more" 2
   { echo "FAIL gap-room: no image of the second seed"; ((++failures)); }
 must_run "${variant[@]}" SEEDS='1 2'
 expect "the seeds again" ""
+must_run "${variant[@]}" SEEDS='1 2' RENDER_FLAGS='--rr none'
+turns=$(grep -oE 'gap-room/product[a-z0-9-]*\.exr --mode' log | sed 's|.*/||; s|\..*||' | xargs)
+[[ $turns == 'product product-short product-seed2 product-short-seed2' ]] ||
+  { echo "FAIL gap-room: methods do not take turns, but $turns"; ((++failures)); }
 must_run PHOTONS=auto TRAIN_FOR=0.01 TIMES=0.05
 expect "PHOTONS=auto" "cache-reduce chart image-compare render"
 [[ $(wc -l < out/gap-room/training.csv) == 2 ]] ||
