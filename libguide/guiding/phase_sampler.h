@@ -30,8 +30,10 @@ struct PhaseOptions {
 // The counterpart of DirectionSampler: the same questions, so that the path loop need not know
 // where a vertex is. The density is
 //   p(wi) = a f(wi) + (1 - a) p_guide(wi),
-// one-sample MIS with the share of the phase function raised where the cell's evidence is poor. The
-// albedo is not in it: the weight of the flight that ended here has it.
+// one-sample MIS with the share of the phase function raised where the cell's evidence is poor, and
+// for the guide `mixture` where the phase function is narrower than the light: samples of the light
+// would leave its peak to weigh 1 / a at every scattering. The albedo is not in it: the weight of
+// the flight that ended here has it.
 class PhaseSampler {
  public:
   // The phase function alone.
