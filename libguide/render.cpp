@@ -69,6 +69,7 @@ class Renderer {
         clock_(clock_of(options)) {
     if (options.fluence) plane_.emplace(scene, *options.fluence, crop_.width, crop_.height);
     if (options.sphere) sphere_.emplace(*options.sphere, crop_.width, crop_.height);
+    if (needs_fits(options.mode)) guiding_.load_fits();
     use(tracer_options(scene, options));
   }
 

@@ -86,9 +86,10 @@ struct RenderOptions {
 };
 
 // What guides. `guide` may be empty unless needs_cache(), `brdf` is needed in modes product and
-// mixture only; mode automatic uses both where they are given.
+// mixture only; mode automatic uses both where they are given, and asks for the fits where it may
+// use them (render_pilot.h).
 struct RenderCaches {
-  const BrdfCache* brdf = nullptr;
+  BrdfSource brdf;
   GuideCacheView guide;
 };
 

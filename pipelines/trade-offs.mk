@@ -24,9 +24,10 @@ SPLITS_TRIED ?= 1 2 4 8 16
 WINDOWS_TRIED ?= 1 2 5 10 20 100
 TOLERANCES_TRIED ?= 0 0.01 0.02 0.05 0.1 0.2 0.5
 FITS_TRIED ?= 1 2 4 8 16
+FIT_SAMPLES_TRIED ?= 64 128 256 512 1024 2048
 split_setting ?= RENDER_FLAGS='$(RENDER_FLAGS) --split %'
 
-# $(call trade_off,name,values,VARIABLE=value with %,axes of the chart)
+# $(call trade_off,name,values,VARIABLE=value with %,axes of the chart,default)
 define trade_off
 trade_offs += trade-off-$(1)
 trade-off-$(1): $(OUT)/trade-off-$(1).svg
@@ -45,25 +46,26 @@ $(OUT)/trade-off-$(1).csv: $(2:%=$(OUT)/trade-off-$(1)/%/point.csv) \
 	  $(foreach v,$(2),value=$(v) $(OUT)/trade-off-$(1)/$(v)/point.csv) > $$@.tmp && mv $$@.tmp $$@
 
 $(OUT)/trade-off-$(1).svg: $(OUT)/trade-off-$(1).csv $(BIN)/chart
-	$$(LAUNCH) $(BIN)/chart $$< -o $$@ --labels $(1) $(4) --title "$(NAME): $(1)" $(QUIET)
+	$$(LAUNCH) $(BIN)/chart $$< -o $$@ --labels $(1) $(4) --y relmse_trimmed \
+	  $(if $(filter $(5),$(2)),--default $(5)) --title "$(NAME): $(1)" $(QUIET)
 endef
 study_needs := $(call needs_of,$(STUDY_METHOD))
 study_scene = SCENE='$(SCENE)' PIPELINE_FLAGS='$(PIPELINE_FLAGS)' SCENE_FLAGS='$(SCENE_FLAGS)' \
   SCENE_INPUTS='$(SCENE_INPUTS)' REFERENCE='$(REFERENCE)'
-$(eval $(call trade_off,photons,$(PHOTONS_TRIED),PHOTONS=%,--preprocess))
+$(eval $(call trade_off,photons,$(PHOTONS_TRIED),PHOTONS=%,--preprocess,$(PHOTONS)))
 $(eval $(call trade_off,cells,$(CELLS_TRIED),\
-  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --photons-per-cell %',--preprocess))
+  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --photons-per-cell %',--preprocess,300))
 $(if $(guided_media),$(eval $(call trade_off,medium-cells,$(MEDIUM_CELLS_TRIED),\
-  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --medium-photons-per-cell %',--preprocess)))
+  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --medium-photons-per-cell %',--preprocess,2000)))
 $(eval $(call trade_off,lobes,$(LOBES_TRIED),\
-  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --components %',--preprocess))
+  CACHE_TRAIN_FLAGS='$(CACHE_TRAIN_FLAGS) --components %',--preprocess,8))
 $(eval $(call trade_off,reduction,$(REDUCTIONS_TRIED),\
-  CACHE_REDUCE_FLAGS='$(CACHE_REDUCE_FLAGS) --max-cost %',--preprocess))
+  CACHE_REDUCE_FLAGS='$(CACHE_REDUCE_FLAGS) --max-cost %',--preprocess,10))
 $(eval $(call trade_off,tolerance,$(TOLERANCES_TRIED),\
-  BRDF_FIT_FLAGS='$(BRDF_FIT_FLAGS) --tolerance %',--preprocess))
-$(eval $(call trade_off,split,$(SPLITS_TRIED),$(split_setting),))
+  BRDF_FIT_FLAGS='$(BRDF_FIT_FLAGS) --tolerance %',--preprocess,0.02))
+$(eval $(call trade_off,split,$(SPLITS_TRIED),$(split_setting),,1))
 $(eval $(call trade_off,window,$(WINDOWS_TRIED),\
-  RENDER_FLAGS='$(RENDER_FLAGS) --weight-window %',))
+  RENDER_FLAGS='$(RENDER_FLAGS) --weight-window %',,5))
 
 # One point: renders of equal samples.
 $(OUT)/point-%.exr $(OUT)/point-%.json &: $(caches_$(study_needs)) $(OUT)/.options/study \
@@ -78,23 +80,30 @@ $(OUT)/point.csv: $(SEEDS:%=$(OUT)/point-%.csv)
 	@awk 'FNR > 1 || NR == 1' $^ > $@.tmp && mv $@.tmp $@
 
 # Fits are judged without a render: seconds of fitting, and error on samples they have not seen.
-$(OUT)/fit/%.json: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/brdf-fit $(BIN)/brdf-fit
-	@mkdir -p $(@D)
-	$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $(scene_flags) -o $(OUT)/fit/$*.brdf --seed $(SEED) \
-	  --stats $@ --fit $(*D) --components $(*F) --fixed-components $(BRDF_FIT_FLAGS) $(QUIET)
+# $(call fit_study,name,values,flags with the value for $(*F),default)
+define fit_study
+trade_offs += trade-off-$(1)
+trade-off-$(1): $(OUT)/trade-off-$(1).svg
+$(OUT)/$(1)/%.json: $(SCENE) $(SCENE_INPUTS) $(OUT)/.options/brdf-fit $(BIN)/brdf-fit
+	@mkdir -p $$(@D)
+	$$(LAUNCH) $(BIN)/brdf-fit $(SCENE) $$(scene_flags) -o $(OUT)/$(1)/$$*.brdf --seed $(SEED) \
+	  --stats $$@ --fit $$(*D) --fixed-components $(3) $$(BRDF_FIT_FLAGS) $$(QUIET)
 
-fits := $(foreach f,em ceres,$(FITS_TRIED:%=$(OUT)/fit/$(f)/%.json))
-$(eval $(call stamp,trade-off-fit,$(FITS_TRIED)))
-$(OUT)/trade-off-fit.csv: $(fits) $(OUT)/.options/trade-off-fit
-	@(echo fit,components,fit_seconds,held_out_error; for f in em ceres; do for k in $(FITS_TRIED); do \
-	  jq -r --arg fit $$f --arg components $$k -f $(ROOT)/tables/fit.jq $(OUT)/fit/$$f/$$k.json \
-	  || exit 1; done; done) > $@.tmp && mv $@.tmp $@
+$(eval $(call stamp,trade-off-$(1),$(2)))
+$(OUT)/trade-off-$(1).csv: $(foreach f,em ceres,$(2:%=$(OUT)/$(1)/$(f)/%.json)) \
+    $(OUT)/.options/trade-off-$(1)
+	@(echo fit,$(1),fit_seconds,held_out_error; for f in em ceres; do for v in $(2); do \
+	  jq -r --arg fit $$$$f --arg value $$$$v -f $(ROOT)/tables/fit.jq $(OUT)/$(1)/$$$$f/$$$$v.json \
+	  || exit 1; done; done) > $$@.tmp && mv $$@.tmp $$@
 
-$(OUT)/trade-off-fit.svg: $(OUT)/trade-off-fit.csv $(BIN)/chart
-	$(LAUNCH) $(BIN)/chart $< -o $@ --x fit_seconds --y held_out_error --lines fit --labels components \
-	  --title "$(NAME): fit, by components" $(QUIET)
-trade-off-fit: $(OUT)/trade-off-fit.svg
+$(OUT)/trade-off-$(1).svg: $(OUT)/trade-off-$(1).csv $(BIN)/chart
+	$$(LAUNCH) $(BIN)/chart $$< -o $$@ --x fit_seconds --y held_out_error --lines fit --labels $(1) \
+	  $(if $(filter $(4),$(2)),--default $(4)) --title "$(NAME): $(1)" $$(QUIET)
+.PRECIOUS: $(OUT)/$(1)/%.json
+endef
+$(eval $(call fit_study,fit-components,$(FITS_TRIED),--components $$(*F),8))
+$(eval $(call fit_study,fit-samples,$(FIT_SAMPLES_TRIED),--components 8 --samples $$(*F),512))
 
-.PRECIOUS: $(OUT)/fit/%.json $(foreach e,exr json csv,$(OUT)/point-%.$(e))
-.PHONY: trade-offs trade-off-fit $(trade_offs)
-trade-offs: $(trade_offs) trade-off-fit
+.PRECIOUS: $(foreach e,exr json csv,$(OUT)/point-%.$(e))
+.PHONY: trade-offs $(trade_offs)
+trade-offs: $(trade_offs)

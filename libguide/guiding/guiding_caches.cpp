@@ -42,9 +42,10 @@ float cosine_over(const GaussianMixture& lobes) {
 BrdfLobe::BrdfLobe(std::span<const GaussianComponent> components, const Vec3& of)
     : mixture(components), wo(of), mean_cosine(cosine_over(mixture)) {}
 
-GuidingCaches::GuidingCaches(const BrdfCache* brdf, const GuideCacheView& guide,
+GuidingCaches::GuidingCaches(BrdfSource fits, const GuideCacheView& guide,
                              std::span<const Material> materials, std::span<const Medium> media)
-    : brdf_(brdf),
+    : fits_(std::move(fits)),
+      materials_(materials),
       guide_(guide),
       finder_(guide.nodes),
       media_(guide.medium, media),
@@ -58,9 +59,19 @@ GuidingCaches::GuidingCaches(const BrdfCache* brdf, const GuideCacheView& guide,
     smooth_.push_back(lobe_traits(materials, static_cast<int>(m)).smooth || behind < 0 ||
                       lobe_traits(materials, behind).smooth);
   }
-  if (!brdf_) return;
+}
+
+void GuidingCaches::load_fits() {
+  if (brdf_ || !fits_) return;
+  brdf_ = fits_();
   prepare_lobes();
-  prepare_materials(materials);
+  prepare_materials();
+}
+
+void GuidingCaches::drop_fits() {
+  fits_ = nullptr;
+  brdf_.reset();
+  lobes_ = {};
 }
 
 void GuidingCaches::prepare_lobes() {
@@ -78,20 +89,20 @@ void GuidingCaches::prepare_lobes() {
   }
 }
 
-void GuidingCaches::prepare_materials(std::span<const Material> materials) {
-  std::vector<int> front(materials.size(), -1);
+void GuidingCaches::prepare_materials() {
+  std::vector<int> front(materials_.size(), -1);
   for (size_t i = 0; i < brdf_->materials.size(); ++i)
-    if (brdf_->materials[i].material < materials.size() && brdf_->materials[i].entry_count > 0)
+    if (brdf_->materials[i].material < materials_.size() && brdf_->materials[i].entry_count > 0)
       front[brdf_->materials[i].material] = static_cast<int>(i);
   for (const MaterialFit& fit : brdf_->materials)
-    widths_.push_back(fit.widths.empty() || fit.material >= materials.size()
+    widths_.push_back(fit.widths.empty() || fit.material >= materials_.size()
                           ? std::nullopt
-                          : lobe_width(materials, static_cast<int>(fit.material)));
-  for (size_t m = 0; m < materials.size(); ++m) {
-    const int behind = material_behind(materials, static_cast<int>(m));
+                          : lobe_width(materials_, static_cast<int>(fit.material)));
+  for (size_t m = 0; m < materials_.size(); ++m) {
+    const int behind = material_behind(materials_, static_cast<int>(m));
     fit_of_material_[m] = {front[m], behind >= 0 ? front[behind] : -1};
-    uniform_[m] = {lobe_traits(materials, static_cast<int>(m)).uniform,
-                   behind >= 0 && lobe_traits(materials, behind).uniform};
+    uniform_[m] = {lobe_traits(materials_, static_cast<int>(m)).uniform,
+                   behind >= 0 && lobe_traits(materials_, behind).uniform};
   }
 }
 

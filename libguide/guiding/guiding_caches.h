@@ -32,9 +32,15 @@ struct FittedLobe {
 class GuidingCaches {
  public:
   GuidingCaches() = default;
-  // brdf may be null; all must outlive this. media: those that guide, none or all of the scene's.
-  GuidingCaches(const BrdfCache* brdf, const GuideCacheView& guide,
-                std::span<const Material> materials, std::span<const Medium> media = {});
+  // fits are asked for by load_fits() alone. What the spans and the view show must outlive this.
+  // media: those that guide, none or all of the scene's.
+  GuidingCaches(BrdfSource fits, const GuideCacheView& guide, std::span<const Material> materials,
+                std::span<const Medium> media = {});
+
+  bool may_load_fits() const { return static_cast<bool>(fits_); }
+  void load_fits();  // where there are any
+  void drop_fits();  // for good, and their memory if no one else has them
+  bool has_fits() const { return brdf_ != nullptr; }
 
   bool guided() const { return !finder_.empty(); }
   // Whether a material scatters into more than single directions on either side.
@@ -56,7 +62,6 @@ class GuidingCaches {
   // textured for the nearest to the width at uv; empty when it has no fit. from_behind: the back of
   // a two-sided material is seen, which may have a fit of its own (material_behind).
   FittedLobe brdf_lobe(int material, bool from_behind, const Vec3& wo, const Vec2& uv) const;
-  bool has_fits() const { return brdf_ != nullptr; }
   // Whether f is the same for all wi: its product with the light is the light.
   bool uniform(int material, bool from_behind) const {
     return material >= 0 && uniform_[material][from_behind];
@@ -85,9 +90,11 @@ class GuidingCaches {
   }
 
   void prepare_lobes();
-  void prepare_materials(std::span<const Material> materials);
+  void prepare_materials();
 
-  const BrdfCache* brdf_ = nullptr;
+  BrdfSource fits_;
+  std::shared_ptr<const BrdfCache> brdf_;  // null: not loaded
+  std::span<const Material> materials_;
   std::vector<BrdfLobe> lobes_;  // by brdf_->entries
   GuideCacheView guide_;
   LeafFinder finder_;

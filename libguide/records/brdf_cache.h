@@ -2,6 +2,8 @@
 // Fitted BSDFs: Gaussian mixtures proportional to f (without the cosine) for a series of wo.
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,5 +51,9 @@ struct BrdfCache {
   std::vector<BrdfCacheEntry> entries;
   std::vector<GaussianComponent> components;
 };
+
+// Gives the fits when they are first needed, which may read a file and throw; empty: there are
+// none.
+using BrdfSource = std::function<std::shared_ptr<const BrdfCache>()>;
 
 }  // namespace waylight

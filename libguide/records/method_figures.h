@@ -21,7 +21,8 @@ struct AutoDecision {
   std::string method = "bsdf";  // what was taken, in words
   std::vector<MethodFigures> compared;
   size_t cells_bsdf = 0, cells_illumination = 0, cells_product = 0;  // by what they are sampled
-  double seconds = 0;                                                // of the pilot
+  std::string fits;    // what became of the fitted BSDFs, in words; empty: there are none
+  double seconds = 0;  // of the pilot
 };
 
 }  // namespace waylight

@@ -128,8 +128,14 @@ class ArmFigures {
   }
 
   void report(std::vector<PilotArm>& arms) {
-    for (size_t i = 0; i < arms.size(); ++i)
-      if (arms[i].held) hold_variances(arms_[i]);
+    std::vector<double> taken;
+    if (arms[0].held) taken = hold_variances(arms_[0]);
+    for (size_t i = 1; i < arms.size(); ++i) {
+      if (arms[i].held)
+        hold_variances(arms_[i]);
+      else
+        take_off(arms_[i], taken);
+    }
     for (size_t i = 0; i < arms.size(); ++i) {
       arms[i].figures.variance = variance(i);
       arms[i].figures.cost = mean(arms_[i].costs);
@@ -154,10 +160,22 @@ class ArmFigures {
 
   // No tile counts for more than a 20th of the variance of its arm, or twice the mean where there
   // are few: a single bright path would decide, and by chance. Many still count for what they are.
-  static void hold_variances(Arm& arm) {
+  // Returns what is taken off, by tile.
+  static std::vector<double> hold_variances(Arm& arm) {
     const double tiles = double(arm.variances.size());
     const double most = mean(arm.variances) * std::max(0.05 * tiles, 2.0);
-    for (double& v : arm.variances) v = std::min(v, most);
+    std::vector<double> taken;
+    for (double& v : arm.variances) {
+      taken.push_back(std::max(v - most, 0.0));
+      v = std::min(v, most);
+    }
+    return taken;
+  }
+  // Of an arm that is not held: no more than of the first, and no more than makes it equal. What
+  // both have, such as all light of the scene in a few tiles, is not held against one of them.
+  void take_off(Arm& arm, const std::vector<double>& taken) const {
+    for (size_t t = 0; t < taken.size(); ++t)
+      arm.variances[t] -= std::clamp(arm.variances[t] - arms_[0].variances[t], 0.0, taken[t]);
   }
   void compare(const std::vector<Unit>& units, double paths, Missed Arm::*missed) {
     for (size_t i = 1; i < units.size(); ++i)

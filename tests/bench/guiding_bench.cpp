@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "common/lent_fits.h"
 #include "common/small_scenes.h"
 #include "libguide/base/parallel.h"
 #include "libguide/base/sampler.h"
@@ -40,7 +41,9 @@ struct Trained {
     stream = {scene.bounds(), trace.count, 0};
     guide = reduce(train(), {}, nullptr);
     brdf = reduce(fit_brdfs(scene.description(), {}, {}).cache, {}, nullptr);
-    caches = GuidingCaches(&brdf, GuideCacheView(guide), scene.description().materials);
+    caches =
+        GuidingCaches(testing::lend(brdf), GuideCacheView(guide), scene.description().materials);
+    caches.load_fits();
     for (uint32_t i = 0; vertices.size() < 4096 && i < photons.size(); i += 16) add_vertex(i);
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Caches of a small scene, and how renders with them compare.
 
+#include "common/lent_fits.h"
 #include "libguide/brdf_fit.h"
 #include "libguide/cache_train.h"
 #include "libguide/photon_trace.h"
@@ -12,7 +13,7 @@ struct Trained {
   BrdfCache brdf;
   GuideCache guide;
 
-  RenderCaches caches() const { return {&brdf, GuideCacheView(guide)}; }
+  RenderCaches caches() const { return {lend(brdf), GuideCacheView(guide)}; }
 };
 
 // places: the photons of media are traced again for the places that they come from.

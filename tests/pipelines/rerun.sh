@@ -147,7 +147,7 @@ must_run trade-off-photons 'PHOTONS_TRIED=10000 20000' STUDY_SPP=2 'CACHE_REDUCE
 expect "the trade-off with other CACHE_REDUCE_FLAGS" "cache-reduce chart image-compare render"
 must_run trade-off-split 'SPLITS_TRIED=1 2' STUDY_SPP=2 'CACHE_REDUCE_FLAGS=--max-cost 5'
 expect "a trade-off of splitting" "chart image-compare render"
-must_run trade-off-fit 'FITS_TRIED=1 2'
+must_run trade-off-fit-components 'FITS_TRIED=1 2'
 expect "a trade-off of fits" "brdf-fit chart"
 must_run clean
 must_run trade-off-split 'SPLITS_TRIED=1 2' STUDY_SPP=2

@@ -58,9 +58,9 @@ class SlowSplitting : public ::testing::Test {
   static std::vector<PathRecord> trace_all(float pixel_estimate, int spp) {
     const SensorDescription& sensor = scene->description().sensor;
     const Camera camera(sensor);
-    const BrdfCache& brdf = trained->brdf;
-    const GuidingCaches caches(&brdf, GuideCacheView(trained->guide),
-                               scene->description().materials);
+    GuidingCaches caches(testing::lend(trained->brdf), GuideCacheView(trained->guide),
+                         scene->description().materials);
+    caches.load_fits();
     PathTracerOptions options;
     options.directions.guide = DirectionGuide::product;
     options.roulette = Roulette::guided;

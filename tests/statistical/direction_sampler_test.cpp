@@ -3,6 +3,7 @@
 
 #include "libguide/guiding/direction_sampler.h"
 
+#include "common/lent_fits.h"
 #include "common/small_scenes.h"
 #include "libguide/brdf_fit.h"
 #include "statistical/density_assertions.h"
@@ -28,7 +29,7 @@ struct GuidedFloor {
     guide.scene_bounds = scene.bounds();
     guide.nodes.push_back({});
     add_cell(cell_normal, light, 1);
-    caches = GuidingCaches(&brdf, GuideCacheView(guide), scene.description().materials);
+    prepare();
   }
 
   // A second cell for normals that point down.
@@ -36,7 +37,13 @@ struct GuidedFloor {
                       float irradiance) {
     guide.nodes = {{0, 1, kNormalAxis + 2}, {0, 1, kLeafAxis}, {0, 0, kLeafAxis}};
     add_cell(cell_normal, light, irradiance);
-    caches = GuidingCaches(&brdf, GuideCacheView(guide), scene.description().materials);
+    prepare();
+  }
+
+  void prepare() {
+    caches =
+        GuidingCaches(testing::lend(brdf), GuideCacheView(guide), scene.description().materials);
+    caches.load_fits();
   }
 
   void add_cell(const Vec3& normal, const std::vector<GaussianComponent>& light, float irradiance) {

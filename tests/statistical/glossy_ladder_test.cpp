@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/lent_fits.h"
 #include "common/small_scenes.h"
 #include "libguide/brdf_fit.h"
 #include "libguide/cache_train.h"
@@ -70,7 +71,7 @@ TEST(SlowGlossyLadder, ProductGuidingDoesNoHarmFromGlossyToNearSpecular) {
     trace_photons(scene, trace, [&](std::span<const Photon> b) { trainer.consume(b); }, {});
     const GuideCache guide = trainer.finish(nullptr);
     const BrdfCache brdf = fit_brdfs(scene.description(), {}, {}).cache;
-    const RenderCaches caches{&brdf, GuideCacheView(guide)};
+    const RenderCaches caches{testing::lend(brdf), GuideCacheView(guide)};
     const Renders bsdf = render_with(scene, caches, RenderMode::bsdf, 0, 1);
     for (const float share : {0.3f, 0.0f}) {  // the default, and learned
       const Renders product = render_with(scene, caches, RenderMode::product, share, 2);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "common/lent_fits.h"
 #include "common/scenes_folder.h"
 #include "formats/image_io.h"
 #include "formats/mitsuba.h"
@@ -75,7 +76,7 @@ Image rendered(const Scene& scene, const Case& c) {
   fit.elevations = 32;
   const BrdfCache brdf = fit_brdfs(scene.description(), fit, {}).cache;
   options.mode = RenderMode::product;
-  return render(scene, {&brdf, GuideCacheView(guide)}, options, nullptr, {});
+  return render(scene, {testing::lend(brdf), GuideCacheView(guide)}, options, nullptr, {});
 }
 
 PixelWindow window(const Region& region, const Case& c) {

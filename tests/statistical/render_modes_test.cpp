@@ -114,6 +114,52 @@ TEST_F(SlowRenderModes, ModeAutoGuidesNothingAtAGlanceByFewCells) {
   EXPECT_EQ(glance.decision.method, "bsdf");
 }
 
+TEST_F(SlowRenderModes, ModeAutoAsksForFitsOnceAndOnlyWhereItMayUseThem) {
+  const Trained coarse = train(*scene, 2'000);
+  RenderOptions options;
+  options.mode = RenderMode::automatic;
+  options.spp = 16;
+  const auto calls_with = [&](const GuideCacheView& guide, const std::string& outcome) {
+    int calls = 0;
+    RenderSummary summary;
+    render(*scene, {testing::lend(trained->brdf, &calls), guide}, options, &summary, {});
+    EXPECT_EQ(summary.decision.fits, outcome);
+    return calls;
+  };
+  EXPECT_EQ(calls_with(GuideCacheView(trained->guide), "loaded"), 1);
+  EXPECT_EQ(calls_with(GuideCacheView(coarse.guide), "not loaded: few cells"), 0);
+  EXPECT_EQ(calls_with({}, "not loaded: no surface has cells"), 0);
+}
+
+// A room under a ceiling that shines.
+SceneDescription bright_box() {
+  SceneDescription scene;
+  const int white = testing::add_two_sided(scene, "white", DiffuseMaterial{Texture(0.3f)});
+  testing::add_shape(scene, testing::rectangle({-1, -1, -1}, {0, 0, 2}, {2, 0, 0}), white);
+  testing::add_shape(scene, testing::rectangle({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}), white);
+  testing::add_shape(scene, testing::rectangle({-1, -1, -1}, {0, 2, 0}, {0, 0, 2}), white);
+  testing::add_shape(scene, testing::rectangle({1, -1, -1}, {0, 0, 2}, {0, 2, 0}), white);
+  testing::make_light(
+      scene,
+      testing::add_shape(scene, testing::rectangle({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}), white),
+      Color(1, 1, 1));
+  testing::look_along_z(scene, {0, 0, -3}, 24, 16);
+  return scene;
+}
+
+TEST(SlowAutoModes, NothingIsGuidedWherePathTracingHasLittleNoise) {
+  const Scene scene(bright_box());
+  const Trained trained = train(scene, 200'000);
+  RenderSummary summary;
+  render_mode(scene, trained, RenderMode::automatic, 3000, 5, &summary);
+  ASSERT_GT(summary.decision.compared.size(), 1u);
+  const MethodFigures &guided = summary.decision.compared[0], &plain = summary.decision.compared[1];
+  EXPECT_LT(plain.variance, 0.3);
+  EXPECT_LT(plain.inefficiency(), 4 * guided.inefficiency());
+  EXPECT_EQ(summary.decision.method, "bsdf");
+  EXPECT_EQ(summary.guiding_share, 0);
+}
+
 TEST_F(SlowRenderModes, ResamplingHasTheMeanOfPathTracingWithFewCandidatesAndMany) {
   for (const int candidates : {1, 2, 5}) {
     RenderOptions options;

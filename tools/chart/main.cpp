@@ -36,6 +36,8 @@ void declare(CLI::App& app, ChartOptions& options) {
   app.add_option("--linear", options.linear, "Axes that are not logarithmic")->type_name("x|y|xy");
   app.add_option("--labels", options.labels, "Column of words to write beside the points")
       ->type_name("COLUMN");
+  app.add_option("--default", options.standard, "Label of the default, which gets a ring")
+      ->type_name("LABEL");
   app.add_flag("--bars", options.bars, "One bar per line: the vertical axis at its largest x");
   app.add_flag("--preprocess", options.preprocess, "Add preprocess_seconds to the seconds");
   app.add_flag("--png", options.png, "Write a PNG of the same name too");

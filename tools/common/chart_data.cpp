@@ -76,6 +76,13 @@ std::vector<ChartPoint> merge_labels(const std::vector<Row>& rows) {
   return points;
 }
 
+bool has_label(const std::vector<ChartLine>& lines, const std::string& label) {
+  for (const ChartLine& line : lines)
+    for (const ChartPoint& point : line.points)
+      if (point.label == label) return true;
+  return false;
+}
+
 std::vector<ChartPoint> merge_equal(std::vector<Row> rows, double tolerance) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const Row& a, const Row& b) { return a.shared < b.shared; });
@@ -99,6 +106,8 @@ void ChartOptions::validate() const {
     require(axis == 'x' || axis == 'y', "--linear {} is not x, y or xy", linear);
   require(!preprocess || x == "seconds", "--preprocess needs --x seconds");
   require(!bars || !preprocess, "--bars has no time to add --preprocess to");
+  require(standard.empty() || (!labels.empty() && !bars),
+          "--default is one of the --labels, beside the points of lines");
   require(output.ends_with(".svg"), "-o \"{}\" does not end in .svg", output);
 }
 
@@ -138,6 +147,9 @@ std::vector<ChartLine> chart_lines(const ChartOptions& options, const RunControl
   for (size_t i = 0; i < names.size(); ++i)
     lines.push_back({names[i], options.labels.empty() ? merge_equal(groups[i], tolerance)
                                                       : merge_labels(groups[i])});
+  if (!options.standard.empty() && !has_label(lines, options.standard))
+    fail("\"{}\": no row has the --default \"{}\" in column {}", options.tables[0],
+         options.standard, options.labels);
   if (options.bars)
     for (ChartLine& line : lines) line.points = {line.points.back()};
   return lines;

@@ -16,6 +16,7 @@ struct ChartOptions {
   std::string lines = "method";             // column that tells the lines apart
   std::string linear;                       // axes that are not logarithmic: "", "x", "y" or "xy"
   std::string labels;                       // column of words beside the points, or none
+  std::string standard;                     // the label of the default value, or none
   bool bars = false;                        // one bar per line: y at its largest x
   bool preprocess = false;                  // add preprocess_seconds to x
   bool png = false;                         // write a PNG beside the SVG too
@@ -24,12 +25,16 @@ struct ChartOptions {
   bool is_linear(char axis) const {
     return (bars && axis == 'y') || linear.find(axis) != std::string::npos;
   }
+  bool has_squared_error() const { return y == "mse" || y == "relmse" || y == "relmse_trimmed"; }
   // Whether an unbiased method's error falls with slope -1 in this chart: squared errors do, with
   // the time of rendering alone.
   bool has_slope() const {
-    const bool squared = y == "mse" || y == "relmse" || y == "relmse_trimmed";
-    return !bars && !preprocess && linear.empty() && squared &&
+    return !bars && !preprocess && linear.empty() && standard.empty() && has_squared_error() &&
            (x == "seconds" || x == "cpu_seconds" || x == "spp");
+  }
+  // Whether error times time tells which values are better than the default.
+  bool has_product() const {
+    return !standard.empty() && has_squared_error() && (x == "seconds" || x == "cpu_seconds");
   }
 };
 

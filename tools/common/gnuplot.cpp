@@ -101,9 +101,9 @@ std::string label_of(const std::string& column) {
   return column;
 }
 
-std::string data_block(size_t index, const ChartLine& line) {
-  std::string block = fmt::format("$line{} << EOD\n", index);
-  for (const ChartPoint& p : line.points)
+std::string data_block(const std::string& name, const std::vector<ChartPoint>& points) {
+  std::string block = fmt::format("${} << EOD\n", name);
+  for (const ChartPoint& p : points)
     block += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} \"{}\"\n", p.x, p.y, p.low, p.high,
                          in_data(p.label));
   return block + "EOD\n";
@@ -135,6 +135,30 @@ std::string plot_command(const std::vector<ChartLine>& lines, bool slope) {
         "pointsize 0.9 title {}",
         i ? ", " : "", i, kColors[i % kColors.size()], kPointTypes[i % kPointTypes.size()],
         quoted(lines[i].name));
+  return command;
+}
+
+std::vector<ChartPoint> defaults_of(const std::vector<ChartLine>& lines, const std::string& label) {
+  std::vector<ChartPoint> points;
+  if (label.empty()) return points;
+  for (const ChartLine& line : lines)
+    for (const ChartPoint& p : line.points)
+      if (p.label == label) points.push_back(p);
+  return points;
+}
+
+// A ring about the default of each line and, where it tells which values are better, the curve of
+// the same error times time.
+std::string default_plots(const std::vector<ChartPoint>& defaults, bool product) {
+  std::string command =
+      ", $default using 1:2 with points pointtype 6 pointsize 2 linewidth 2 linecolor rgb "
+      "'#202020' "
+      "title 'default'";
+  if (product)
+    command += fmt::format(
+        ", {:.9g}/x with lines linecolor rgb '#9a9a9a' linewidth 1.5 dashtype 2 "
+        "title 'the same error x time'",
+        defaults[0].x * defaults[0].y);
   return command;
 }
 
@@ -194,7 +218,10 @@ std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartL
       y.extend(p.high);
     }
   std::string script = terminal(format) + "set output " + quoted(output) + "\n";
-  for (size_t i = 0; i < lines.size(); ++i) script += data_block(i, lines[i]);
+  for (size_t i = 0; i < lines.size(); ++i)
+    script += data_block(fmt::format("line{}", i), lines[i].points);
+  const std::vector<ChartPoint> defaults = defaults_of(lines, options.standard);
+  if (!defaults.empty()) script += data_block("default", defaults);
   script += "set encoding utf8\nset samples 200\n";
   if (!options.bars) script += axis_commands('x', x, options.is_linear('x'));
   script += axis_commands('y', y, options.is_linear('y'));
@@ -212,6 +239,7 @@ std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartL
   if (options.bars) return script + bar_commands(lines);
   script += plot_command(lines, options.has_slope());
   if (!options.labels.empty()) script += label_plots(lines);
+  if (!defaults.empty()) script += default_plots(defaults, options.has_product());
   return script + "\n";
 }
 

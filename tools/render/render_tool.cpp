@@ -19,44 +19,53 @@
 namespace waylight {
 namespace {
 
-// The caches that the mode asks for, checked against the scene. Others are not even opened, and of
-// the illumination cache, which is mapped, only what paths look at is read.
-struct LoadedCaches {
-  LoadedCaches(const RenderArguments& arguments, const RenderOptions& options,
-               const SceneDescription& scene) {
+// The caches that the mode asks for, checked against the scene, and noted as parents of the image.
+// Others are not even opened, and of the illumination cache, which is mapped, only what paths look
+// at is read. Mode auto asks for the fits when it knows that it may use them.
+class LoadedCaches {
+ public:
+  // All must outlive this.
+  LoadedCaches(const RenderArguments& arguments, const RenderOptions& options, Provenance& image)
+      : path_of_fits_(arguments.brdf), image_(image) {
     const RenderMode mode = options.mode;
-    const std::string scene_name = file_name(arguments.scene.path);
     const bool automatic = mode == RenderMode::automatic;
     require(!needs_cache(options) || !arguments.cache.empty(), "--mode {} needs --cache",
             method_name(options));
     if (!(needs_cache(options) || automatic) || arguments.cache.empty()) return;
-    guide.emplace(arguments.cache);
-    require_same_scene(arguments.cache, guide->provenance(), scene_name, scene.hash,
+    guide_.emplace(arguments.cache);
+    require_same_scene(arguments.cache, guide_->provenance(), image.scene_name, image.scene,
                        SceneParts::all);
-    if (guide->view().quantity != Quantity::radiance)
+    if (guide_->view().quantity != Quantity::radiance)
       fail(
           "\"{}\": is an importance cache, which guides photons (photon-trace --importance); "
           "render needs one trained on photons",
           arguments.cache);
-    if (!automatic && guide->view().cells.empty() && guide->view().medium.cells.empty())
+    if (!automatic && guide_->view().cells.empty() && guide_->view().medium.cells.empty())
       fail("\"{}\": has no cells; train it on photons of the scene", arguments.cache);
-    parents.push_back(parent_of(arguments.cache));
-    const bool fits_may_pay = automatic && !arguments.brdf.empty() && !guide->view().cells.empty();
-    if (!needs_fits(mode) && !fits_may_pay) return;
-    require(!arguments.brdf.empty(), "--mode {} needs --brdf", mode_name(mode));
-    brdf.emplace(read_brdf(arguments.brdf));
-    require_same_scene(arguments.brdf, brdf->provenance, scene_name, scene.hash,
+    image.parents.push_back(parent_of(arguments.cache));
+    require(!needs_fits(mode) || !arguments.brdf.empty(), "--mode {} needs --brdf",
+            mode_name(mode));
+    if (needs_fits(mode))
+      fits_ = [fits = load_fits()] { return fits; };
+    else if (automatic && !arguments.brdf.empty())
+      fits_ = [this] { return load_fits(); };
+  }
+
+  RenderCaches caches() const { return {fits_, guide_ ? guide_->view() : GuideCacheView()}; }
+
+ private:
+  std::shared_ptr<const BrdfCache> load_fits() const {
+    BrdfFile file = read_brdf(path_of_fits_);
+    require_same_scene(path_of_fits_, file.provenance, image_.scene_name, image_.scene,
                        SceneParts::materials);
-    parents.push_back(parent_of(arguments.brdf));
+    image_.parents.push_back(parent_of(path_of_fits_));
+    return std::make_shared<const BrdfCache>(std::move(file.cache));
   }
 
-  RenderCaches caches() const {
-    return {brdf ? &brdf->cache : nullptr, guide ? guide->view() : GuideCacheView()};
-  }
-
-  std::optional<MappedCache> guide;
-  std::optional<BrdfFile> brdf;
-  std::vector<ParentFile> parents;
+  const std::string& path_of_fits_;
+  Provenance& image_;
+  std::optional<MappedCache> guide_;
+  BrdfSource fits_;
 };
 
 std::map<std::string, std::string> exr_attributes(const Provenance& p) {
@@ -91,9 +100,10 @@ void report(const ToolRun& run, const RenderSummary& s) {
 
 // Variance times cost of each way over that of everything guided.
 void report(const ToolRun& run, const AutoDecision& decision) {
-  run.print(fmt::format("auto: {}; cells by bsdf {}, illumination {}, product {}; pilot {:.2f} s",
+  const std::string fits = decision.fits.empty() ? "" : "; fits " + decision.fits;
+  run.print(fmt::format("auto: {}; cells by bsdf {}, illumination {}, product {}{}; pilot {:.2f} s",
                         decision.method, decision.cells_bsdf, decision.cells_illumination,
-                        decision.cells_product, decision.seconds));
+                        decision.cells_product, fits, decision.seconds));
   for (const MethodFigures& m : decision.compared)
     run.print(fmt::format("  {:<26} variance x cost {:.3f} +- {:.3f}", m.name,
                           m.inefficiency() / decision.compared[0].inefficiency(), m.uncertainty));
@@ -110,6 +120,7 @@ nlohmann::ordered_json json_of(const AutoDecision& decision) {
           {"cells_bsdf", decision.cells_bsdf},
           {"cells_illumination", decision.cells_illumination},
           {"cells_product", decision.cells_product},
+          {"fits", decision.fits},
           {"pilot_seconds", decision.seconds},
           {"compared", compared}};
 }
@@ -167,9 +178,8 @@ void render(const ToolRun& run, const ToolInfo& tool, const RenderArguments& arg
   const RenderOptions options = complete_options(arguments);
   if (!arguments.segments.empty()) check_writable(arguments.segments);
   SceneDescription description = load_scene_of(arguments, options, run);
-  const LoadedCaches loaded(arguments, options, description);
   Provenance provenance = provenance_of(run, tool, options.seed, arguments.scene, description.hash);
-  provenance.parents = loaded.parents;
+  const LoadedCaches loaded(arguments, options, provenance);
   const std::unique_ptr<Scene> scene =
       build_lit_scene(std::move(description), options, arguments.scene, run);
   RenderSummary summary;
