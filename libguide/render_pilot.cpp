@@ -39,7 +39,7 @@ constexpr int kGlancePaths = 128;
 // guided but what is that many times better. Such noise is mostly that of lamps and edges, which
 // stratified samples take away and guiding does not, and independent paths of a pilot do not see
 // that: in the Cornell box (0.13) they find guiding 1.3 to 2.4 times better, and at 64 samples it
-// is 1.1 times worse, at 256 1.3. A room where it gains 3 times has 0.7.
+// is 1.1 times worse, at 256 1.3. A room where it gains 3 times has 0.6.
 constexpr double kEasy = 0.3, kWorthIt = 4;
 
 // Smooth scatterings of a few paths.

@@ -76,13 +76,6 @@ std::vector<ChartPoint> merge_labels(const std::vector<Row>& rows) {
   return points;
 }
 
-bool has_label(const std::vector<ChartLine>& lines, const std::string& label) {
-  for (const ChartLine& line : lines)
-    for (const ChartPoint& point : line.points)
-      if (point.label == label) return true;
-  return false;
-}
-
 std::vector<ChartPoint> merge_equal(std::vector<Row> rows, double tolerance) {
   std::stable_sort(rows.begin(), rows.end(),
                    [](const Row& a, const Row& b) { return a.shared < b.shared; });
@@ -124,6 +117,14 @@ ChartOptions with_columns_of_table(const ChartOptions& options) {
   return result;
 }
 
+std::vector<ChartPoint> points_of(const std::vector<ChartLine>& lines, const std::string& label) {
+  std::vector<ChartPoint> points;
+  for (const ChartLine& line : lines)
+    for (const ChartPoint& p : line.points)
+      if (p.label == label) points.push_back(p);
+  return points;
+}
+
 std::vector<ChartLine> chart_lines(const ChartOptions& options, const RunControl& control) {
   std::vector<Row> rows;
   for (const std::string& path : options.tables) read_rows(path, options, control, rows);
@@ -147,7 +148,7 @@ std::vector<ChartLine> chart_lines(const ChartOptions& options, const RunControl
   for (size_t i = 0; i < names.size(); ++i)
     lines.push_back({names[i], options.labels.empty() ? merge_equal(groups[i], tolerance)
                                                       : merge_labels(groups[i])});
-  if (!options.standard.empty() && !has_label(lines, options.standard))
+  if (!options.standard.empty() && points_of(lines, options.standard).empty())
     fail("\"{}\": no row has the --default \"{}\" in column {}", options.tables[0],
          options.standard, options.labels);
   if (options.bars)

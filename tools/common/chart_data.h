@@ -54,6 +54,9 @@ struct ChartLine {
   std::vector<ChartPoint> points;  // x rises, but where they have labels
 };
 
+// Those of all lines with one label.
+std::vector<ChartPoint> points_of(const std::vector<ChartLine>& lines, const std::string& label);
+
 // Lines in the order in which they appear. Renders that are limited by time end a little late, so
 // seconds within 5 % of each other count as equal, before preprocessing is added; other columns
 // have to be equal. Where points have labels, rows with one label are a point. Rows that

@@ -138,22 +138,12 @@ std::string plot_command(const std::vector<ChartLine>& lines, bool slope) {
   return command;
 }
 
-std::vector<ChartPoint> defaults_of(const std::vector<ChartLine>& lines, const std::string& label) {
-  std::vector<ChartPoint> points;
-  if (label.empty()) return points;
-  for (const ChartLine& line : lines)
-    for (const ChartPoint& p : line.points)
-      if (p.label == label) points.push_back(p);
-  return points;
-}
-
 // A ring about the default of each line and, where it tells which values are better, the curve of
 // the same error times time.
 std::string default_plots(const std::vector<ChartPoint>& defaults, bool product) {
   std::string command =
-      ", $default using 1:2 with points pointtype 6 pointsize 2 linewidth 2 linecolor rgb "
-      "'#202020' "
-      "title 'default'";
+      ", $default using 1:2 with points pointtype 6 pointsize 2 linewidth 2 "
+      "linecolor rgb '#202020' title 'default'";
   if (product)
     command += fmt::format(
         ", {:.9g}/x with lines linecolor rgb '#9a9a9a' linewidth 1.5 dashtype 2 "
@@ -220,7 +210,8 @@ std::string gnuplot_script(const ChartOptions& options, const std::vector<ChartL
   std::string script = terminal(format) + "set output " + quoted(output) + "\n";
   for (size_t i = 0; i < lines.size(); ++i)
     script += data_block(fmt::format("line{}", i), lines[i].points);
-  const std::vector<ChartPoint> defaults = defaults_of(lines, options.standard);
+  std::vector<ChartPoint> defaults;
+  if (!options.standard.empty()) defaults = points_of(lines, options.standard);
   if (!defaults.empty()) script += data_block("default", defaults);
   script += "set encoding utf8\nset samples 200\n";
   if (!options.bars) script += axis_commands('x', x, options.is_linear('x'));
