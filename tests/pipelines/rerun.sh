@@ -239,8 +239,9 @@ expect "shafts again" ""
 make --no-print-directory -f pipelines/volume-paper.mk "${small[@]}" shafts SHAFTS_SIZE=16x9 > log 2>&1
 expect "shafts of another size" "render"
 
-# Times that both seeds reach on a busy machine.
+# Times that both seeds reach on a busy machine: those of the processors.
 small=("${tiny[@]}" 'TIMES=0.2 0.4' SEEDS='1 2' OUT=out/compare 'SCENES=gap-room smoky-room'
+       'RENDER_FLAGS=--clock cpu'
        'MEDIA_METHODS=none both' 'options_smoky-room=PHOTONS=2000')
 pipeline=compare
 run_compare() { make --no-print-directory -f pipelines/compare.mk "${small[@]}" > log 2>&1; }
