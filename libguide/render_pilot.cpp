@@ -7,6 +7,7 @@
 #include "libguide/render_alternatives.h"
 #include "libguide/render_plan.h"
 #include "libguide/transport/choice_pilot.h"
+#include "libguide/transport/glance.h"
 
 namespace waylight {
 namespace {
@@ -39,18 +40,11 @@ constexpr int kGlancePaths = 128;
 // guided but what is that many times better. Such noise is mostly that of lamps and edges, which
 // stratified samples take away and guiding does not, and independent paths of a pilot do not see
 // that: in the Cornell box (0.13) they find guiding 1.3 to 2.4 times better, and at 64 samples it
-// is 1.1 times worse, at 256 1.3. A room where it gains 3 times has 0.6.
-constexpr double kEasy = 0.3, kWorthIt = 4;
-
-// Smooth scatterings of a few paths.
-struct Glance {
-  uint64_t scatterings = 0, guided = 0, in_grids = 0;
-
-  double guided_share() const { return scatterings > 0 ? double(guided) / double(scatterings) : 1; }
-  double share_in_grids() const {
-    return scatterings > 0 ? double(in_grids) / double(scatterings) : 0;
-  }
-};
+// is 1.1 times worse, at 256 1.3. A room where it gains 3 times has 0.6. Renders that are too small
+// to compare anything guide nothing where a few paths surely have as little, unless it is less than
+// half as much by guided ones: 0.6 in the Cornell box, 0.1 to 0.5 beside an empty cloud and in
+// rooms where guiding pays.
+constexpr double kEasy = 0.3, kWorthIt = 4, kLess = 0.5;
 
 class MethodChoice {
  public:
@@ -66,21 +60,19 @@ class MethodChoice {
       max_paths_ = static_cast<uint64_t>(std::min(double(kMaxPaths), kPilotShare * paths));
   }
 
-  // At a few paths all over the frame; at none where these would be more than a pilot may take.
-  Glance glance(const PathTracerOptions& tracing) const {
-    Glance seen;
-    if (max_paths_ < kGlancePaths) return seen;
-    const PathTracer tracer = tracer_.with(tracing);
-    for (int i = 0; i < kGlancePaths; ++i) {
-      const int place = static_cast<int>(int64_t{i} * frame_.places() / kGlancePaths);
-      Sampler sampler = frame_.sampler(place, 0, 0);
-      const Ray ray = frame_.ray(place, 0, sampler);
-      const PathRecord path = tracer.trace(ray, sampler, {});
-      seen.scatterings += path.scatterings;
-      seen.guided += path.guided;
-      seen.in_grids += path.in_grids;
-    }
-    return seen;
+  // At no path where a few would be more than a pilot may take.
+  Glance at_a_glance(const PathTracerOptions& tracing) const {
+    return glance(tracer_.with(tracing), frame_, max_paths_ < kGlancePaths ? 0 : kGlancePaths);
+  }
+
+  // Whether there will be no comparison, and as far as a few paths tell little noise without one,
+  // and hardly less by guiding. Those that are guided find what others would find rarely.
+  bool surely_easy(const PathTracerOptions& everything, const PathTracerOptions& nothing) const {
+    if (may_measure(frame_, paths_to_compare())) return false;
+    const uint64_t paths = paths_to_compare() / 2;
+    const Noise plain = relative_noise(tracer_.with(nothing), frame_, paths);
+    const Noise guided = relative_noise(tracer_.with(everything), frame_, paths);
+    return std::max(plain.most(), guided.most()) < kEasy && guided.mean >= kLess * plain.mean;
   }
 
   std::vector<CellChoice> learn(PathTracerOptions tracing, const GuidingCaches& caches) const {
@@ -99,7 +91,7 @@ class MethodChoice {
 
   bool compare(std::vector<PilotArm>& arms) const {
     MethodPilotOptions pilot;
-    pilot.max_paths = static_cast<uint64_t>((1 - kLearningShare) * double(max_paths_));
+    pilot.max_paths = paths_to_compare();
     pilot.timed = options_.time > 0;
     return measure(tracer_, arms, frame_, pilot, [&] { return stop_() || late(1); });
   }
@@ -107,6 +99,9 @@ class MethodChoice {
   double seconds() const { return clock_.seconds(); }
 
  private:
+  uint64_t paths_to_compare() const {
+    return static_cast<uint64_t>((1 - kLearningShare) * double(max_paths_));
+  }
   bool late(double share) const {
     return options_.time > 0 && seconds() > share * kPilotShare * options_.time;
   }
@@ -245,8 +240,10 @@ PathTracerOptions choose_method(const Scene& scene, const SensorDescription& sen
     return plain(options, everything);
   }
   const MethodChoice pilot(options, sensor, tracer, stop);
-  const Glance seen = pilot.glance(everything);
-  const std::string doubts = doubt(guiding, seen);
+  const Glance seen = pilot.at_a_glance(everything);
+  const std::string doubts = pilot.surely_easy(everything, plain(options, everything))
+                                 ? "little noise"
+                                 : doubt(guiding, seen);
   load_fits(guiding, doubts, decision);
   everything = begin(everything, guiding, options, seen);
   std::vector<CellChoice> choices;

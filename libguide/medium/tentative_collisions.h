@@ -14,22 +14,22 @@ void tentative_collisions(BlockWalk blocks, float factor, float u, RandomStream&
   const auto exponential = [](float v) { return -std::log1p(-v); };
   float depth = exponential(u);  // optical, left until the next collision
   for (RayBlock block; blocks.next(block);) {
-    const float rate = factor * block.most;
-    float t = block.t0;
-    for (; depth < rate * (block.t1 - t); depth = exponential(random.next())) {
-      t += depth / rate;
-      if (!visit(t, rate)) return;
+    const float rate = factor * block.most, length = block.length();
+    float along = 0;  // from where the block begins: far away, t has no steps as small
+    for (; depth < rate * (length - along); depth = exponential(random.next())) {
+      along += depth / rate;
+      if (!visit(block.t0 + along, rate)) return;
     }
-    depth -= rate * (block.t1 - t);
+    depth -= rate * (length - along);
   }
 }
 
-// The factor >= 1 with which at least `wanted` tentative collisions are expected along the blocks;
-// 1 where there is no extinction.
+// The factor >= 1 with which at least `wanted` tentative collisions are expected along the blocks,
+// or fewer where it would be above 1e30; 1 where there is no extinction.
 inline float rate_factor(BlockWalk blocks, float wanted) {
   float depth = 0;
   for (RayBlock block; depth < wanted && blocks.next(block);) depth += block.most * block.length();
-  return depth > 0 ? std::max(1.0f, wanted / depth) : 1.0f;
+  return depth > 0 ? std::clamp(wanted / depth, 1.0f, 1e30f) : 1.0f;
 }
 
 }  // namespace waylight

@@ -205,14 +205,22 @@ class ArmFigures {
   double turn_paths_ = 0;
 };
 
+// Of all arms together.
+FrameTurns turns_of(const PilotFrame& frame, uint64_t max_paths, size_t arms) {
+  const double paths_per_tile = 2.0 * frame.places() / frame.tiles();  // of one arm
+  return {frame.tiles(), kTilesPerTurn, kMaxRounds * int(arms), double(max_paths) / paths_per_tile};
+}
+
 }  // namespace
+
+bool may_measure(const PilotFrame& frame, uint64_t max_paths) {
+  return turns_of(frame, max_paths, 2).count() >= 2;
+}
 
 bool measure(const PathTracer& tracer, std::vector<PilotArm>& arms, const PilotFrame& frame,
              const MethodPilotOptions& options, const std::function<bool()>& stop) {
-  const double paths_per_tile = 2.0 * frame.places() / frame.tiles();  // of one arm
-  const FrameTurns turns(frame.tiles(), kTilesPerTurn, kMaxRounds * int(arms.size()),
-                         double(options.max_paths) / paths_per_tile);
-  if (turns.count() < 2) return false;
+  if (!may_measure(frame, options.max_paths)) return false;
+  const FrameTurns turns = turns_of(frame, options.max_paths, arms.size());
   arms.resize(std::min(arms.size(), size_t(turns.count())));
   const int turns_of_each = turns.count() / int(arms.size());
   const MethodPilot pilot(tracer, arms, frame, options.timed);

@@ -21,7 +21,7 @@ eval "$settings"
 attempt() {
   local what=$1 status
   shift
-  timeout "$LIMIT" "$@" >> "${output:-$folder/log}" 2> "$folder/error" && return
+  timeout -k 10 "$LIMIT" "$@" >> "${output:-$folder/log}" 2> "$folder/error" && return
   status=$?
   cat "$folder/error" >> "$folder/log"
   local reason="exit code $status"

@@ -160,6 +160,20 @@ TEST(SlowAutoModes, NothingIsGuidedWherePathTracingHasLittleNoise) {
   EXPECT_EQ(summary.guiding_share, 0);
 }
 
+TEST(SlowAutoModes, ARenderTooSmallToCompareGuidesNothingWhereAFewPathsHaveLittleNoise) {
+  const Scene scene(bright_box());
+  const Trained trained = train(scene, 200'000);
+  ASSERT_GE(trained.guide.cells.size(), 30u);
+  RenderSummary summary, smaller;
+  render_mode(scene, trained, RenderMode::automatic, 48, 5, &summary);
+  EXPECT_TRUE(summary.decision.compared.empty());
+  EXPECT_EQ(summary.decision.method, "bsdf");
+  EXPECT_EQ(summary.decision.fits, "not loaded: little noise");
+  EXPECT_EQ(summary.guiding_share, 0);
+  render_mode(scene, trained, RenderMode::automatic, 8, 5, &smaller);
+  EXPECT_EQ(smaller.decision.method, "guided");  // too small for these paths too
+}
+
 TEST_F(SlowRenderModes, ResamplingHasTheMeanOfPathTracingWithFewCandidatesAndMany) {
   for (const int candidates : {1, 2, 5}) {
     RenderOptions options;
