@@ -18,6 +18,9 @@ constexpr uint64_t kMaxPaths = 1 << 20;
 // Standard errors that a gain has to be worth; and what it has to be beyond, of what guides less
 // too: what that loses is rare bright paths, which a pilot may not have seen.
 constexpr double kCertainty = 3, kLeastGain = 0.01, kLeastGainOfLess = 0.1;
+// And of BSDFs on surfaces beside media: in the lantern they are a fifth cheaper, have the same
+// noise in a pilot, and three to four times the error in the render.
+constexpr double kLeastGainOfBsdfs = 0.3;
 // Standard error of the comparison with guiding nothing from which on it decides nothing: it knows
 // too little of the rare bright paths that can be most of the variance. Twelve of sixteen such
 // pilots of dense fog found path tracing 3 to 90 times better, which had twice the cost.
@@ -41,10 +44,9 @@ constexpr int kGlancePaths = 128;
 // stratified samples take away and guiding does not, and independent paths of a pilot do not see
 // that: in the Cornell box (0.13) they find guiding 1.3 to 2.4 times better, and at 64 samples it
 // is 1.1 times worse, at 256 1.3. A room where it gains 3 times has 0.6. Renders that are too small
-// to compare anything guide nothing where a few paths surely have as little, unless it is less than
-// half as much by guided ones: 0.6 in the Cornell box, 0.1 to 0.5 beside an empty cloud and in
-// rooms where guiding pays.
-constexpr double kEasy = 0.3, kWorthIt = 4, kLess = 0.5;
+// to compare anything guide nothing where a few paths surely have less, unless it is much less by
+// guided ones: 0.56 to 0.84 in the Cornell box, 0.1 to 0.52 beside an empty cloud.
+constexpr double kEasy = 0.3, kWorthIt = 4, kEasyAtAGlance = 0.25, kHardlyLess = 0.55;
 
 class MethodChoice {
  public:
@@ -72,7 +74,8 @@ class MethodChoice {
     const uint64_t paths = paths_to_compare() / 2;
     const Noise plain = relative_noise(tracer_.with(nothing), frame_, paths);
     const Noise guided = relative_noise(tracer_.with(everything), frame_, paths);
-    return std::max(plain.most(), guided.most()) < kEasy && guided.mean >= kLess * plain.mean;
+    return plain.surely_below(kEasyAtAGlance) && guided.surely_below(kEasyAtAGlance) &&
+           guided.mean > kHardlyLess * plain.mean;
   }
 
   std::vector<CellChoice> learn(PathTracerOptions tracing, const GuidingCaches& caches) const {
@@ -151,21 +154,22 @@ class Verdict {
     const double first = arms_[0].figures.inefficiency(), other = arms_[arm].figures.inefficiency();
     return first > 0 && other > 0 ? std::log(first / other) : 0;
   }
-  static double least_gain(const PilotArm& arm) {
+  static double least_gain(const PilotArm& arm, double of_less = kLeastGainOfLess) {
     const double by_chance = kCertainty * arm.figures.uncertainty;
-    return arm.held ? std::max(by_chance, kLeastGain) : by_chance + kLeastGainOfLess;
+    return arm.held ? std::max(by_chance, kLeastGain) : by_chance + of_less;
   }
   double least_gain_of_plain(double best) const {
     const double uncertainty = arms_[1].figures.uncertainty;
-    if (arms_[1].figures.variance < kEasy) return best - std::log(kWorthIt);
     if (doubtful_) return best - kCertainty * uncertainty;
     if (uncertainty > kVague) return std::numeric_limits<double>::infinity();
+    if (arms_[1].figures.variance < kEasy) return best - std::log(kWorthIt);
     return std::max(best, least_gain(arms_[1]));
   }
   std::optional<size_t> best_change(Decision of) const {
+    const double of_less = of == Decision::surfaces ? kLeastGainOfBsdfs : kLeastGainOfLess;
     std::optional<size_t> best;
     for (size_t i = 0; i + 2 < arms_.size(); ++i) {
-      if (open_[i].of != of || !(gain(i + 2) > least_gain(arms_[i + 2]))) continue;
+      if (open_[i].of != of || !(gain(i + 2) > least_gain(arms_[i + 2], of_less))) continue;
       if (!best || gain(i + 2) > gain(*best + 2)) best = i;
     }
     return best;

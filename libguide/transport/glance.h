@@ -24,7 +24,9 @@ Glance glance(const PathTracer& tracer, const PilotFrame& frame, int paths);
 struct Noise {
   double mean = kInfinity, error = 0;  // over places, and its standard error
 
-  double most() const { return mean + 2 * error; }
+  // By three standard errors, if there is noise and it is known at all: rare bright paths make it
+  // vague, or are not among them.
+  bool surely_below(double most) const { return error < 0.4 * mean && mean + 3 * error < most; }
 };
 
 // The mean of as many places as `paths` reach for with eight each, at most 64; not known where they

@@ -165,7 +165,7 @@ TEST(SlowAutoModes, ARenderTooSmallToCompareGuidesNothingWhereAFewPathsHaveLittl
   const Trained trained = train(scene, 200'000);
   ASSERT_GE(trained.guide.cells.size(), 30u);
   RenderSummary summary, smaller;
-  render_mode(scene, trained, RenderMode::automatic, 48, 5, &summary);
+  render_mode(scene, trained, RenderMode::automatic, 200, 5, &summary);
   EXPECT_TRUE(summary.decision.compared.empty());
   EXPECT_EQ(summary.decision.method, "bsdf");
   EXPECT_EQ(summary.decision.fits, "not loaded: little noise");

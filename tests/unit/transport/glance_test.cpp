@@ -29,7 +29,7 @@ Noise noise_of(const SceneDescription& description, uint64_t paths) {
 }
 
 TEST(Glance, LightThatIsSeenAloneHasNoNoise) {
-  EXPECT_NEAR(noise_of(shining(), 512).most(), 0, 1e-12);
+  EXPECT_NEAR(noise_of(shining(), 512).mean, 0, 1e-12);
 }
 
 TEST(Glance, LightBehindAGapHasMoreNoiseThanALampInTheRoom) {
@@ -37,9 +37,17 @@ TEST(Glance, LightBehindAGapHasMoreNoiseThanALampInTheRoom) {
   EXPECT_LT(noise_of(testing::window_box(), 512).mean, noise_of(testing::gap_box(), 512).mean);
 }
 
+TEST(Glance, NoiseIsSurelyLittleOnlyWhereItIsKnown) {
+  EXPECT_TRUE((Noise{0.1, 0.02}.surely_below(0.2)));
+  EXPECT_FALSE((Noise{0.1, 0.04}.surely_below(0.2)));
+  EXPECT_FALSE((Noise{0.01, 0.005}.surely_below(0.2)));
+  EXPECT_FALSE((Noise{0, 0}.surely_below(0.2)));  // bright paths that few paths do not find
+  EXPECT_FALSE(Noise{}.surely_below(0.2));
+}
+
 TEST(Glance, FewerPathsThanSixteenPlacesHaveSayNothing) {
-  EXPECT_TRUE(std::isinf(noise_of(shining(), 127).most()));
-  EXPECT_FALSE(std::isinf(noise_of(shining(), 128).most()));
+  EXPECT_TRUE(std::isinf(noise_of(shining(), 127).mean));
+  EXPECT_FALSE(std::isinf(noise_of(shining(), 128).mean));
 }
 
 }  // namespace
